@@ -1,0 +1,77 @@
+// A client of one running daemon: read its poses and scene, push its bodies, control its run.
+//
+//   poinsot::Client client({.world = "push_me"});
+//   client.wait_for_server(5s);
+//   auto reply = client.apply({.body_name = "box", .force = {0, 0, 50}}, 1s);
+//
+// One thread at a time. A daemon that restarts is met again without doing anything: streams resume,
+// with another session number.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "poinsot/protocol/body_info.h"
+#include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/pose_snapshot.h"
+#include "poinsot/protocol/run_control.h"
+#include "poinsot/protocol/wrench_command.h"
+
+namespace poinsot {
+
+struct ClientOptions {
+  std::string world;      // empty: the only one there is
+  int domain = 77;        // DDS domain
+  bool lan = false;       // false: this host only
+};
+
+// No answer within the time allowed, or no (single) daemon to talk to. The text says which.
+class NoAnswer : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// World names of the daemons that answer within `wait`, sorted.
+std::vector<std::string> find_worlds(int domain, bool lan, std::chrono::nanoseconds wait);
+
+class Client {
+ public:
+  using Duration = std::chrono::nanoseconds;
+
+  // Joins the bus; does not wait. Throws Error if the bus cannot be joined.
+  explicit Client(const ClientOptions& options);
+  ~Client();
+  Client(Client&&) noexcept;
+  Client& operator=(Client&&) noexcept;
+
+  // Waits until the daemon is matched in both directions. Throws NoAnswer: none found, or several
+  // found and no world named (the text lists them).
+  void wait_for_server(Duration timeout);
+
+  const std::string& world() const;  // after wait_for_server
+
+  // The next frame's poses, in order; nothing on time-out. `snapshot` is reused.
+  bool next_poses(PoseSnapshot& snapshot, Duration timeout);
+  // The newest frame's poses; older ones are skipped. False when there is none yet.
+  bool latest_poses(PoseSnapshot& snapshot);
+
+  // All bodies, once all have arrived; throws NoAnswer on time-out.
+  std::vector<BodyInfo> scene(Duration timeout);
+  // The newest report; throws NoAnswer on time-out.
+  RunReport report(Duration timeout);
+
+  // Fills in client, seq; sends, resends until answered. Throws NoAnswer on time-out.
+  Reply apply(WrenchCommand command, Duration timeout);
+  Reply control(RunControl control, Duration timeout);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace poinsot

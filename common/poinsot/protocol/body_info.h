@@ -1,0 +1,28 @@
+// What does not change about a body: the scene topic, one sample per body, keyed by id.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "poinsot/base/body_id.h"
+#include "poinsot/math/pose.h"
+#include "poinsot/scene/scene.h"
+
+namespace poinsot {
+
+struct BodyInfo {
+  std::uint64_t session = 0;  // of the daemon process
+  BodyId id;
+  std::uint32_t index = 0;  // place in the scene file
+  std::uint32_t count = 0;  // bodies in the scene: a late joiner knows when it has them all
+  std::string name;
+  bool is_static = false;
+  MassProperties mass_properties;  // in B
+  Pose pose;                       // of B in W at time 0 (for a static body: always)
+  Material material;
+  std::vector<ShapeDef> shapes;  // poses in B
+};
+
+}  // namespace poinsot

@@ -1,0 +1,80 @@
+// A scene: everything a run needs, as plain data. Read from YAML by scene_file.h or built in code;
+// validate() holds for both. SI units; W is the inertial frame, B a body's own.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "poinsot/math/pose.h"
+#include "poinsot/scene/mass_properties.h"
+#include "poinsot/scene/shape.h"
+#include "poinsot/scene/strategies.h"
+
+namespace poinsot {
+
+struct Material {
+  double friction = 0.5;     // [-] Coulomb coefficient
+  double restitution = 0.0;  // [-] Newton coefficient, 0 … 1
+};
+
+struct ShapeDef {
+  Shape shape;
+  Pose pose;  // of the shape's frame in B
+};
+
+struct BodyDef {
+  std::string name;               // unique in the scene
+  bool is_static = false;         // never moves; needs no mass
+  std::vector<ShapeDef> shapes;   // may be empty: a body that touches nothing
+  MassProperties mass_properties; // in B; all zero for a static body
+  Pose pose;                      // of B in W at time 0
+  Vec3 linear_velocity = Vec3::Zero();   // [m/s] of the centre of mass, in W
+  Vec3 angular_velocity = Vec3::Zero();  // [rad/s] in W
+  Material material;
+  std::string where;  // "file:line:col" of its definition, for messages; empty if built in code
+};
+
+struct SimulationDef {
+  IntegratorKind integrator = IntegratorKind::rk4;
+  double step = 0;                    // [s] of the fixed methods; 0: one step per contact step
+  Vec3 gravity = Vec3(0, 0, -9.81);   // [m/s²] in W
+};
+
+struct CollisionDef {
+  ImpactSearchKind impact_search = ImpactSearchKind::none;
+  ContactSolverKind contact_solver = ContactSolverKind::sequential_impulses;
+  double contact_step = 1.0 / 240;  // [s] longest sub-step of a frame
+  int iterations = 20;              // sweeps of the contact solver per sub-step
+  double contact_margin = 0.02;     // [-] gap below which a point is kept in the manifold, relative
+                                    // to the smaller body's size
+  double push_out_speed = 1.0;      // [m/s] upper bound of the removal of penetration
+};
+
+struct PresentationDef {
+  double frame_rate = 60;  // [Hz]
+};
+
+struct Scene {
+  std::string world;  // name on the bus: letters, digits, '_', '-'
+  PresentationDef presentation;
+  CollisionDef collision;
+  SimulationDef simulation;
+  bool allow_overlap = false;  // bodies may overlap at time 0; they are pushed out at bounded speed
+  std::vector<BodyDef> bodies;
+};
+
+// One fault of a scene. `where` may be empty when the scene was built in code.
+struct SceneFault {
+  std::string where;  // "file:line:col"
+  std::string what;   // complete sentence fragment, with the offending value and its unit
+};
+
+// All faults that need no geometry query: sizes, masses, inertias, quaternions, names, ranges,
+// strategies. Empty means valid.
+std::vector<SceneFault> validate(const Scene& scene);
+
+// Joins faults into one Error, a line each: "where: what".
+[[noreturn]] void throw_faults(const std::vector<SceneFault>& faults);
+
+}  // namespace poinsot

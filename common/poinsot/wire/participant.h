@@ -1,0 +1,53 @@
+// A participant on the bus: the one door to Fast DDS. All quality of service, buffer and segment
+// sizes are set in this module, none elsewhere; profiles named by FASTRTPS_DEFAULT_PROFILES_FILE are
+// honoured for what is not set here.
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace poinsot {
+
+inline constexpr int kDefaultDomain = 77;
+inline constexpr int kMaxDomain = 232;
+
+struct BusOptions {
+  int domain = kDefaultDomain;  // 0 … kMaxDomain
+  bool lan = false;             // false: this host only
+  std::size_t bodies = 0;       // that this side publishes: sizes the shared-memory segment
+};
+
+enum class BusLogLevel { error, warning };
+using BusLog = std::function<void(BusLogLevel, const std::string& message)>;
+
+// Sends Fast DDS's own log lines to `log` instead of the standard output, for the whole process.
+// Call once, before the first participant; an empty function drops them.
+void route_bus_log(BusLog log);
+
+// Removes what dead processes of this host left in shared memory (segments without a live owner).
+// Returns the number of files removed. Safe beside running participants.
+int remove_stale_segments();
+
+class Participant {
+ public:
+  // Throws Error if the bus cannot be joined.
+  explicit Participant(const BusOptions& options);
+  ~Participant();
+  Participant(Participant&&) noexcept;
+  Participant& operator=(Participant&&) noexcept;
+
+  // World names of the daemons discovered so far, sorted. Discovery is asynchronous.
+  std::vector<std::string> worlds() const;
+
+  struct Impl;
+  Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace poinsot

@@ -1,0 +1,33 @@
+// Writes plain structs of the protocol to their topic of one world. RAII: the endpoint leaves the bus
+// with the object. Instantiated for the protocol's types in publisher.cpp; no Fast DDS type shows.
+
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "poinsot/wire/participant.h"
+
+namespace poinsot {
+
+template <class Message>
+class Publisher {
+ public:
+  // Throws Error if the endpoint cannot be made.
+  Publisher(Participant& participant, std::string_view world);
+  ~Publisher();
+  Publisher(Publisher&&) noexcept;
+  Publisher& operator=(Publisher&&) noexcept;
+
+  // False if the bus refused the sample. Never blocks for a slow or stopped reader.
+  bool write(const Message& message);
+
+  // Readers matched now.
+  int readers() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace poinsot

@@ -1,0 +1,66 @@
+// Reads plain structs of the protocol from their topic of one world, and waits for any of several.
+// Messages are checked on conversion (finite numbers, sizes, known enumerators): what is malformed
+// comes out as a Malformed with the reason, never as a struct.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "poinsot/wire/participant.h"
+
+namespace poinsot {
+
+// A sample that could not be converted. client and seq are zero where the type has none.
+struct Malformed {
+  std::uint64_t client = 0;
+  std::uint64_t seq = 0;
+  std::string reason;
+};
+
+template <class Message>
+class Subscriber {
+ public:
+  // Throws Error if the endpoint cannot be made.
+  Subscriber(Participant& participant, std::string_view world);
+  ~Subscriber();
+  Subscriber(Subscriber&&) noexcept;
+  Subscriber& operator=(Subscriber&&) noexcept;
+
+  // Takes the next sample into `message` (reused, so that a steady stream does not allocate).
+  // Malformed samples go to `refused`, if given, and are skipped. False when there is none.
+  bool take(Message& message, const std::function<void(const Malformed&)>& refused = {});
+
+  // Writers matched now.
+  int writers() const;
+
+  struct Impl;
+  Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+// Waits until one of the attached subscribers has data, or until woken.
+class Waiter {
+ public:
+  Waiter();
+  ~Waiter();
+
+  template <class Message>
+  void attach(Subscriber<Message>& subscriber);  // before the first wait
+
+  // True if there may be data, false on time-out. Returns at once after wake().
+  bool wait(std::chrono::nanoseconds timeout);
+  void wake();  // from any thread
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace poinsot
