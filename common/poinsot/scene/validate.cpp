@@ -94,7 +94,7 @@ std::string size_fault(std::string_view what, double value) {
 
 std::string sizes_fault(std::string_view what, const Vec3& sizes) {
   for (int i = 0; i < 3; ++i)
-    if (auto fault = size_fault(std::string(what) + " " + "xyz"[i], sizes[i]); !fault.empty())
+    if (auto fault = size_fault(std::string(what).append({' ', "xyz"[i]}), sizes[i]); !fault.empty())
       return fault;
   return {};
 }
@@ -269,7 +269,9 @@ void throw_faults(const std::vector<SceneFault>& faults) {
   std::string text;
   for (const SceneFault& fault : faults) {
     const std::string& where = fault.where.empty() ? fault.path : fault.where;
-    text += (text.empty() ? "" : "\n") + where + (where.empty() ? "" : ": ") + fault.what;
+    if (!text.empty()) text += '\n';
+    if (!where.empty()) text.append(where).append(": ");
+    text += fault.what;
   }
   throw Error(text);
 }
