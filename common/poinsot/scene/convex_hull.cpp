@@ -51,8 +51,8 @@ Points normalized(std::span<const Vec3> points) {
     high = high.cwiseMax(p);
   }
   const double scale = (high - low).norm();
-  if (!(scale > 0) || !std::isfinite(scale))
-    throw Error("a convex shape's points must not all be one point");
+  if (!std::isfinite(scale)) throw Error("a convex shape's points are too far apart");
+  if (!(scale > 0)) throw Error("a convex shape's points must not all be one point");
   Points result;
   for (const Vec3& p : points) result.push_back((p - (low + high) / 2) / scale);
   return result;

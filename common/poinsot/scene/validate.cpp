@@ -27,7 +27,7 @@ std::string number(double value) {
 }
 
 std::string quoted(std::string_view text) {
-  return "'" + std::string(text) + "'";
+  return std::string("'").append(text).append("'");
 }
 
 bool sane(const Vec3& v) {
