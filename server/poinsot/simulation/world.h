@@ -1,0 +1,65 @@
+// The bodies: their constant properties, their state, and what acts on them. Everything per body is
+// an array in the same order, the order of the scene file; static bodies are columns like the
+// others, with zero inverse mass.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "poinsot/base/body_id.h"
+#include "poinsot/math/pose.h"
+#include "poinsot/scene/scene.h"
+#include "poinsot/simulation/held_wrench.h"
+#include "poinsot/simulation/state.h"
+
+namespace poinsot {
+
+enum class Motion : std::uint8_t {
+  dynamic,
+  fixed,   // static in the scene
+  frozen,  // dynamic, but its state became non-finite: held at its last good pose
+};
+
+struct World {
+  explicit World(const Scene& scene);
+
+  Eigen::Index size() const { return y.cols(); }
+  bool moves(Eigen::Index i) const { return motion[static_cast<std::size_t>(i)] == Motion::dynamic; }
+
+  // Column of a body; nothing if there is no such body.
+  std::optional<Eigen::Index> find(BodyId id) const;
+  std::optional<Eigen::Index> find(std::string_view name) const;
+
+  // Sets a body at rest for good at its present pose.
+  void freeze(Eigen::Index i);
+
+  double time = 0;  // [s]
+  Vec3 gravity;     // [m/s²] in W
+  StateArray y;     // 13×n
+
+  // Constant.
+  std::vector<BodyId> ids;
+  std::vector<std::string> names;
+  std::vector<Motion> motion;
+  std::vector<double> mass;          // [kg] 0 for static bodies
+  std::vector<double> inv_mass;      // [1/kg] 0 for bodies that do not move
+  std::vector<Vec3> center_of_mass;  // [m] in B
+  std::vector<Mat3> J_B;             // [kg·m²] about the centre of mass, in B
+  std::vector<Mat3> inv_J_B;         // [1/(kg·m²)] 0 for bodies that do not move
+
+  // Inputs of the frame.
+  std::vector<HeldWrench> held;
+};
+
+// Derived quantities of one body.
+Mat3 rotation(const World& world, Eigen::Index i);          // R, B → W
+Mat3 inv_J_W(const World& world, Eigen::Index i);           // R J⁻¹ Rᵀ
+Vec3 linear_velocity(const World& world, Eigen::Index i);   // [m/s] of the centre of mass
+Vec3 angular_velocity(const World& world, Eigen::Index i);  // [rad/s] in W
+Pose body_pose(const World& world, Eigen::Index i);         // of B in W
+
+}  // namespace poinsot
