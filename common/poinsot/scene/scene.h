@@ -68,13 +68,17 @@ struct Scene {
 struct SceneFault {
   std::string where;  // "file:line:col"
   std::string what;   // complete sentence fragment, with the offending value and its unit
+  std::string path;   // of the value in the scene, "bodies[2].material.friction"
 };
 
 // All faults that need no geometry query: sizes, masses, inertias, quaternions, names, ranges,
 // strategies. Empty means valid.
 std::vector<SceneFault> validate(const Scene& scene);
 
-// Joins faults into one Error, a line each: "where: what".
+// What is wrong with one shape, or nothing: "box: size y must be > 0 m, is -1".
+std::string shape_fault(const Shape& shape);
+
+// Joins faults into one Error, a line each: "where: what", or "path: what" without a where.
 [[noreturn]] void throw_faults(const std::vector<SceneFault>& faults);
 
 }  // namespace poinsot

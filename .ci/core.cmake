@@ -1,0 +1,5 @@
+# Physics only: neither Fast DDS nor Java is needed.
+set(CMAKE_BUILD_TYPE Release CACHE STRING "")
+set(POINSOT_BUILD_BUS OFF CACHE BOOL "")
+set(POINSOT_BUILD_TESTS ON CACHE BOOL "")
+set(POINSOT_WERROR ON CACHE BOOL "")

@@ -1,0 +1,279 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "poinsot/base/error.h"
+#include "poinsot/math/inertia.h"
+#include "poinsot/scene/scene.h"
+
+namespace poinsot {
+namespace {
+
+constexpr double kUnitSlack = 1e-9;    // [-] how far from 1 the norm of a unit quantity may be
+constexpr double kMagnitude = 1e12;    // SI; lengths and speeds beyond it are slips of the pen
+constexpr double kMaxFrameRate = 1e6;  // [Hz]
+constexpr double kMaxStep = 1;         // [s]
+constexpr int kMaxIterations = 1'000'000;
+constexpr std::size_t kMaxName = 128;  // [bytes]
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+std::string quoted(std::string_view text) {
+  return std::string("'").append(text).append("'");
+}
+
+bool sane(const Vec3& v) {
+  return v.allFinite() && v.cwiseAbs().maxCoeff() <= kMagnitude;
+}
+
+bool is_unit(double norm) {
+  return std::abs(norm - 1) <= kUnitSlack;
+}
+
+// Well-formed UTF-8 (no overlong forms, no surrogates) without control characters.
+bool is_printable_utf8(std::string_view text) {
+  auto byte = [&](std::size_t i) -> unsigned {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
+  };
+  for (std::size_t i = 0; i < text.size();) {
+    const unsigned lead = byte(i);
+    if (lead < 0x80) {
+      if (lead < 0x20 || lead == 0x7f) return false;
+      ++i;
+      continue;
+    }
+    const std::size_t more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : 1;
+    if (lead < 0xc2 || lead > 0xf4) return false;
+    for (std::size_t k = 1; k <= more; ++k)
+      if ((byte(i + k) & 0xc0) != 0x80) return false;
+    const unsigned second = byte(i + 1);
+    if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
+        (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f) ||
+        (lead == 0xc2 && second < 0xa0))
+      return false;
+    i += more + 1;
+  }
+  return true;
+}
+
+std::string name_fault(std::string_view name) {
+  if (name.empty()) return "a body's name must not be empty";
+  if (name.size() > kMaxName)
+    return "a body's name must have at most " + std::to_string(kMaxName) + " bytes, has " +
+           std::to_string(name.size());
+  if (!is_printable_utf8(name)) return "a body's name must be printable UTF-8 text";
+  return {};
+}
+
+std::string world_fault(std::string_view world) {
+  const bool good =
+      !world.empty() && world.size() <= kMaxName && std::ranges::all_of(world, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_' || c == '-';
+      });
+  return good ? std::string()
+              : "world must be 1 to " + std::to_string(kMaxName) +
+                    " letters, digits, '_' or '-', is " + quoted(world);
+}
+
+// Sizes ------------------------------------------------------------------------------------------
+
+std::string size_fault(std::string_view what, double value) {
+  if (value > 0 && value <= kMagnitude) return {};
+  return std::string(what) + " must be > 0 m and at most " + number(kMagnitude) + " m, is " +
+         number(value);
+}
+
+std::string sizes_fault(std::string_view what, const Vec3& sizes) {
+  for (int i = 0; i < 3; ++i)
+    if (auto fault = size_fault(std::string(what).append({' ', "xyz"[i]}), sizes[i]); !fault.empty())
+      return fault;
+  return {};
+}
+
+template <class Round>
+std::string round_fault(std::string_view kind, const Round& s) {
+  auto fault = size_fault(std::string(kind) + " radius", s.radius);
+  return fault.empty() ? size_fault(std::string(kind) + " length", s.length) : fault;
+}
+
+struct ShapeFault {
+  std::string operator()(const Sphere& s) const { return size_fault("sphere radius", s.radius); }
+  std::string operator()(const Box& s) const { return sizes_fault("box size", s.size); }
+  std::string operator()(const Capsule& s) const { return round_fault("capsule", s); }
+  std::string operator()(const Cylinder& s) const { return round_fault("cylinder", s); }
+  std::string operator()(const Cone& s) const { return round_fault("cone", s); }
+  std::string operator()(const Ellipsoid& s) const {
+    return sizes_fault("ellipsoid semi-axis", s.semi_axes);
+  }
+  std::string operator()(const Convex& s) const {
+    if (s.vertices.size() < 4 || s.faces.size() < 4)
+      return "convex must be made by convex_hull(): it has " + std::to_string(s.vertices.size()) +
+             " vertices and " + std::to_string(s.faces.size()) + " faces";
+    if (!std::ranges::all_of(s.vertices, sane))
+      return "convex points must be finite and at most " + number(kMagnitude) + " m from 0";
+    const int count = static_cast<int>(s.vertices.size());
+    for (const Convex::Face& face : s.faces)
+      for (int i : face.loop)
+        if (i < 0 || i >= count) return "convex face names vertex " + std::to_string(i);
+    return {};
+  }
+  std::string operator()(const HalfSpace& s) const {
+    if (!s.normal.allFinite() || !is_unit(s.normal.norm()))
+      return "half_space normal must have length 1";
+    if (!(std::abs(s.offset) <= kMagnitude))
+      return "half_space offset must be finite and at most " + number(kMagnitude) + " m, is " +
+             number(s.offset);
+    return {};
+  }
+};
+
+// Masses -----------------------------------------------------------------------------------------
+
+std::string mass_fault(const MassProperties& m) {
+  if (!(m.mass > 0) || !std::isfinite(m.mass))
+    return "mass must be > 0 kg and finite, is " + number(m.mass);
+  if (!sane(m.center_of_mass)) return "center_of_mass must be finite";
+  if (!m.J.allFinite()) return "inertia must be finite";
+  if (is_physical_inertia(m.J)) return {};
+  if (!m.J.isApprox(m.J.transpose(), kUnitSlack)) return "inertia must be symmetric";
+  const Vec3 p = principal_moments(m.J);
+  return "no solid has this inertia: its principal moments are " + number(p[0]) + ", " +
+         number(p[1]) + " and " + number(p[2]) + " kg·m²; " +
+         (p[0] > 0 ? "the greatest must not exceed the sum of the other two" : "all must be > 0");
+}
+
+// The walk over a scene --------------------------------------------------------------------------
+
+class Validation {
+ public:
+  std::vector<SceneFault> run(const Scene& scene) {
+    add("", "world", world_fault(scene.world));
+    check_tables(scene);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      check_body(scene.bodies[i], "bodies[" + std::to_string(i) + "]");
+    return std::move(faults_);
+  }
+
+ private:
+  void add(const std::string& where, const std::string& path, std::string what) {
+    if (!what.empty()) faults_.push_back({where, std::move(what), path});
+  }
+  void require(bool good, const std::string& path, const std::string& what, double value) {
+    if (!good) add("", path, what + ", is " + number(value));
+  }
+
+  void check_tables(const Scene& scene) {
+    const double rate = scene.presentation.frame_rate;
+    require(rate > 0 && rate <= kMaxFrameRate, "presentation.frame_rate",
+            "frame_rate must be > 0 Hz and at most " + number(kMaxFrameRate) + " Hz", rate);
+    const CollisionDef& c = scene.collision;
+    require(c.contact_step > 0 && c.contact_step <= kMaxStep, "collision.contact_step",
+            "contact_step must be > 0 s and at most " + number(kMaxStep) + " s", c.contact_step);
+    require(c.iterations >= 1 && c.iterations <= kMaxIterations, "collision.iterations",
+            "iterations must be 1 to " + std::to_string(kMaxIterations), c.iterations);
+    require(c.contact_margin >= 0 && c.contact_margin <= 1, "collision.contact_margin",
+            "contact_margin must be 0 to 1", c.contact_margin);
+    require(c.push_out_speed >= 0 && c.push_out_speed <= kMagnitude, "collision.push_out_speed",
+            "push_out_speed must be >= 0 m/s and finite", c.push_out_speed);
+    const SimulationDef& s = scene.simulation;
+    require(s.step >= 0 && s.step <= kMaxStep, "simulation.step",
+            "step must be 0 (one per contact step) or at most " + number(kMaxStep) + " s", s.step);
+    if (!sane(s.gravity))
+      add("", "simulation.gravity",
+          "gravity must be finite and at most " + number(kMagnitude) + " m/s²");
+  }
+
+  void check_body(const BodyDef& body, const std::string& path) {
+    add(body.where, path + ".name", name_fault(body.name));
+    const auto [first, is_new] = names_.emplace(body.name, body.where.empty() ? path : body.where);
+    if (!is_new)
+      add(body.where, path + ".name",
+          "duplicate body name " + quoted(body.name) + ", first at " + first->second);
+    check_vector(body, path + ".position", body.pose.c, "m");
+    check_vector(body, path + ".linear_velocity", body.linear_velocity, "m/s");
+    check_vector(body, path + ".angular_velocity", body.angular_velocity, "rad/s");
+    check_quaternion(body, path + ".orientation", body.pose.q);
+    check_material(body, path + ".material");
+    for (std::size_t k = 0; k < body.shapes.size(); ++k)
+      check_shape(body, body.shapes[k], path + ".shapes[" + std::to_string(k) + "]");
+    if (body.is_static)
+      check_static(body, path);
+    else
+      add(body.where, path + ".mass_properties", mass_fault(body.mass_properties));
+  }
+
+  void check_static(const BodyDef& body, const std::string& path) {
+    if (body.mass_properties.mass != 0)
+      add(body.where, path + ".mass_properties", "a static body has no mass");
+    if (!body.linear_velocity.isZero(0))
+      add(body.where, path + ".linear_velocity", "a static body has no linear_velocity");
+    if (!body.angular_velocity.isZero(0))
+      add(body.where, path + ".angular_velocity", "a static body has no angular_velocity");
+  }
+
+  void check_shape(const BodyDef& body, const ShapeDef& def, const std::string& path) {
+    add(body.where, path + ".shape", shape_fault(def.shape));
+    check_vector(body, path + ".position", def.pose.c, "m");
+    check_quaternion(body, path + ".orientation", def.pose.q);
+    if (!body.is_static && std::holds_alternative<HalfSpace>(def.shape))
+      add(body.where, path + ".shape", "only a static body may have a half_space");
+  }
+
+  void check_vector(const BodyDef& body, const std::string& path, const Vec3& v,
+                    std::string_view unit) {
+    if (sane(v)) return;
+    add(body.where, path,
+        path.substr(path.rfind('.') + 1) + " must be finite and at most " + number(kMagnitude) +
+            " " + std::string(unit));
+  }
+
+  void check_quaternion(const BodyDef& body, const std::string& path, const Quat& q) {
+    if (!q.coeffs().allFinite() || !is_unit(q.norm()))
+      add(body.where, path, "orientation must be a unit quaternion, has norm " + number(q.norm()));
+  }
+
+  void check_material(const BodyDef& body, const std::string& path) {
+    const Material& m = body.material;
+    if (!(m.friction >= 0 && m.friction <= kMagnitude))
+      add(body.where, path + ".friction",
+          "friction must be >= 0 and finite, is " + number(m.friction));
+    if (!(m.restitution >= 0 && m.restitution <= 1))
+      add(body.where, path + ".restitution",
+          "restitution must be 0 to 1, is " + number(m.restitution));
+  }
+
+  std::vector<SceneFault> faults_;
+  std::map<std::string, std::string> names_;  // → where it was first used
+};
+
+}  // namespace
+
+std::string shape_fault(const Shape& shape) {
+  return std::visit(ShapeFault(), shape);
+}
+
+std::vector<SceneFault> validate(const Scene& scene) {
+  return Validation().run(scene);
+}
+
+void throw_faults(const std::vector<SceneFault>& faults) {
+  std::string text;
+  for (const SceneFault& fault : faults) {
+    const std::string& where = fault.where.empty() ? fault.path : fault.where;
+    if (!text.empty()) text += '\n';
+    if (!where.empty()) text.append(where).append(": ");
+    text += fault.what;
+  }
+  throw Error(text);
+}
+
+}  // namespace poinsot
