@@ -5,7 +5,7 @@
 //   auto reply = client.apply({.body_name = "box", .force = {0, 0, 50}}, 1s);
 //
 // One thread at a time. A daemon that restarts is met again without doing anything: streams resume,
-// with another session number.
+// with another session number. Waiting costs no processor time.
 
 #pragma once
 
@@ -25,9 +25,9 @@
 namespace poinsot {
 
 struct ClientOptions {
-  std::string world;      // empty: the only one there is
-  int domain = 77;        // DDS domain
-  bool lan = false;       // false: this host only
+  std::string world;  // empty: the only one there is
+  int domain = 77;    // DDS domain
+  bool lan = false;   // false: this host only
 };
 
 // No answer within the time allowed, or no (single) daemon to talk to. The text says which.
@@ -50,22 +50,27 @@ class Client {
   Client& operator=(Client&&) noexcept;
 
   // Waits until the daemon is matched in both directions. Throws NoAnswer: none found, or several
-  // found and no world named (the text lists them).
+  // found and no world named (the text lists them). If a world was named, the other calls need not
+  // wait for it.
   void wait_for_server(Duration timeout);
 
   const std::string& world() const;  // after wait_for_server
 
-  // The next frame's poses, in order; nothing on time-out. `snapshot` is reused.
+  // The next frame's poses, in order; false on time-out, and `snapshot` is left alone. Its memory
+  // is reused. Up to 60 frames wait; who falls farther behind misses the oldest.
   bool next_poses(PoseSnapshot& snapshot, Duration timeout);
-  // The newest frame's poses; older ones are skipped. False when there is none yet.
+  // The newest frame's poses; older ones are skipped. False, and `snapshot` is left alone, when
+  // none came since the last call.
   bool latest_poses(PoseSnapshot& snapshot);
 
-  // All bodies, once all have arrived; throws NoAnswer on time-out.
+  // All bodies in the order of the scene file, once all have arrived; throws NoAnswer on time-out.
+  // After a restart: of the daemon whose poses or report were read last.
   std::vector<BodyInfo> scene(Duration timeout);
-  // The newest report; throws NoAnswer on time-out.
+  // The newest report that was not returned before: waits for it. Throws NoAnswer on time-out.
   RunReport report(Duration timeout);
 
-  // Fills in client, seq; sends, resends until answered. Throws NoAnswer on time-out.
+  // Fills in client and seq, sends, and resends every 250 ms until answered. Throws NoAnswer on
+  // time-out (whether the command was taken is then unknown), Error if it does not fit on the bus.
   Reply apply(WrenchCommand command, Duration timeout);
   Reply control(RunControl control, Duration timeout);
 

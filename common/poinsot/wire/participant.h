@@ -1,6 +1,6 @@
 // A participant on the bus: the one door to Fast DDS. All quality of service, buffer and segment
-// sizes are set in this module, none elsewhere; profiles named by FASTRTPS_DEFAULT_PROFILES_FILE are
-// honoured for what is not set here.
+// sizes are set in this module, none elsewhere; profiles named by FASTRTPS_DEFAULT_PROFILES_FILE
+// are honoured for what is not set here.
 
 #pragma once
 

@@ -1,5 +1,6 @@
-// Writes plain structs of the protocol to their topic of one world. RAII: the endpoint leaves the bus
-// with the object. Instantiated for the protocol's types in publisher.cpp; no Fast DDS type shows.
+// Writes plain structs of the protocol to their topic of one world. RAII: the endpoint leaves the
+// bus with the object. Instantiated for the protocol's types in publisher.cpp; no Fast DDS type
+// shows.
 
 #pragma once
 

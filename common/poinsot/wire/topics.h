@@ -1,4 +1,5 @@
-// Topic names: poinsot/<world>/<topic>. One row per topic: its name and the plain struct it carries.
+// Topic names: poinsot/<world>/<topic>. One row per topic: its name and the plain struct it
+// carries.
 
 #pragma once
 

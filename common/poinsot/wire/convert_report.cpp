@@ -1,0 +1,88 @@
+#include "poinsot/wire/checks.h"
+#include "poinsot/wire/convert.h"
+
+namespace poinsot {
+namespace {
+
+constexpr FrameFlag kAllFlags =
+    FrameFlag::body_quarantined | FrameFlag::inbox_full | FrameFlag::overrun;
+
+void assign(msg::v1::LayerTime& out, const Elapsed& in) {
+  out.wall_s(in.wall_s);
+  out.cpu_s(in.cpu_s);
+}
+
+Elapsed time(Checks& checks, const msg::v1::LayerTime& in, std::string_view name) {
+  checks.number(in.wall_s(), name);
+  checks.number(in.cpu_s(), name);
+  return {in.wall_s(), in.cpu_s()};
+}
+
+double finite(Checks& checks, double value, std::string_view name) {
+  checks.number(value, name);
+  return value;
+}
+
+}  // namespace
+
+std::string to_message(const RunReport& in, msg::v1::RunStatus& out) {
+  out.session(in.session);
+  out.epoch(in.epoch);
+  out.state(static_cast<msg::v1::RunStateKind>(in.state));
+  out.frame_index(in.frame.frame);
+  out.sim_time(in.frame.sim_time);
+  out.bodies(in.frame.bodies);
+  out.contacts(in.frame.contacts);
+  out.quarantined(in.frame.quarantined);
+  out.energy(in.frame.energy);
+  out.energy_error(in.frame.energy_error);
+  out.push_out_energy(in.frame.push_out_energy);
+  out.max_penetration(in.frame.max_penetration);
+  out.flags(static_cast<std::uint32_t>(in.frame.flags));
+  out.frame_rate(in.frame_rate);
+  out.real_time_factor(in.real_time_factor);
+  out.state_hash(in.state_hash);
+  out.overruns(in.overruns);
+  out.commands_accepted(in.commands_accepted);
+  out.commands_refused(in.commands_refused);
+  out.snapshots_dropped(in.snapshots_dropped);
+  assign(out.presentation_time(), in.times.presentation);
+  assign(out.collision_time(), in.times.collision);
+  assign(out.contact_time(), in.times.contact);
+  assign(out.simulation_time(), in.times.simulation);
+  assign(out.publishing_time(), in.times.publishing);
+  return {};
+}
+
+std::string from_message(const msg::v1::RunStatus& in, RunReport& out) {
+  Checks checks;
+  out.session = in.session();
+  out.epoch = in.epoch();
+  out.state = known(checks, in.state(), RunState::quitting, "state");
+  out.frame.frame = in.frame_index();
+  out.frame.sim_time = finite(checks, in.sim_time(), "sim_time");
+  out.frame.bodies = in.bodies();
+  out.frame.contacts = in.contacts();
+  out.frame.quarantined = in.quarantined();
+  out.frame.energy = finite(checks, in.energy(), "energy");
+  out.frame.energy_error = finite(checks, in.energy_error(), "energy_error");
+  out.frame.push_out_energy = finite(checks, in.push_out_energy(), "push_out_energy");
+  out.frame.max_penetration = finite(checks, in.max_penetration(), "max_penetration");
+  checks.require((in.flags() & ~static_cast<std::uint32_t>(kAllFlags)) == 0, "flags are unknown");
+  out.frame.flags = static_cast<FrameFlag>(in.flags());
+  out.frame_rate = finite(checks, in.frame_rate(), "frame_rate");
+  out.real_time_factor = finite(checks, in.real_time_factor(), "real_time_factor");
+  out.state_hash = in.state_hash();
+  out.overruns = in.overruns();
+  out.commands_accepted = in.commands_accepted();
+  out.commands_refused = in.commands_refused();
+  out.snapshots_dropped = in.snapshots_dropped();
+  out.times.presentation = time(checks, in.presentation_time(), "presentation_time");
+  out.times.collision = time(checks, in.collision_time(), "collision_time");
+  out.times.contact = time(checks, in.contact_time(), "contact_time");
+  out.times.simulation = time(checks, in.simulation_time(), "simulation_time");
+  out.times.publishing = time(checks, in.publishing_time(), "publishing_time");
+  return checks.take();
+}
+
+}  // namespace poinsot

@@ -1,0 +1,142 @@
+#include "poinsot/wire/participant.h"
+
+#include <algorithm>
+
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
+
+#include "poinsot/base/error.h"
+#include "poinsot/wire/participant_impl.h"
+#include "poinsot/wire/qos.h"
+#include "poinsot/wire/topics.h"
+
+namespace poinsot {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+class LogRelay : public dds::LogConsumer {
+ public:
+  explicit LogRelay(BusLog log) : log_(std::move(log)) {}
+
+  void Consume(const dds::Log::Entry& entry) override {
+    if (!log_ || entry.kind == dds::Log::Kind::Info) return;
+    const auto level =
+        entry.kind == dds::Log::Kind::Error ? BusLogLevel::error : BusLogLevel::warning;
+    log_(level, std::string(entry.context.category) + ": " + entry.message);
+  }
+
+ private:
+  BusLog log_;
+};
+
+// "poinsot/<world>/report" → world; empty for other topics.
+std::string world_of(std::string_view topic) {
+  constexpr std::string_view kPrefix = "poinsot/";
+  constexpr std::string_view kSuffix = "/report";
+  static_assert(kSuffix.substr(1) == kTopicName<RunReport>);
+  if (topic.size() <= kPrefix.size() + kSuffix.size() || !topic.starts_with(kPrefix) ||
+      !topic.ends_with(kSuffix))
+    return {};
+  topic.remove_prefix(kPrefix.size());
+  topic.remove_suffix(kSuffix.size());
+  return std::string(topic);
+}
+
+}  // namespace
+
+void route_bus_log(BusLog log) {
+  dds::Log::ClearConsumers();
+  dds::Log::RegisterConsumer(std::make_unique<LogRelay>(std::move(log)));
+  dds::Log::SetVerbosity(dds::Log::Kind::Warning);
+}
+
+std::string checked_topic_name(std::string_view world, std::string_view topic) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  constexpr std::size_t kMaxWorldName = 127;
+  if (world.empty() || world.size() > kMaxWorldName ||
+      !std::all_of(world.begin(), world.end(), allowed))
+    throw Error("world '" + std::string(world) +
+                "': a world's name has 1 to 127 letters, digits, '_' and '-'");
+  return topic_name(world, topic);
+}
+
+std::vector<std::string> WorldDirectory::worlds() const {
+  std::set<std::string> names;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [writer, world] : worlds_) names.insert(world);
+  return {names.begin(), names.end()};
+}
+
+void WorldDirectory::on_publisher_discovery(dds::DomainParticipant*,
+                                            rtps::WriterDiscoveryInfo&& info) {
+  const std::string world = world_of(info.info.topicName().c_str());
+  if (world.empty()) return;
+  const std::lock_guard lock(mutex_);
+  if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER)
+    worlds_.erase(info.info.guid());
+  else
+    worlds_[info.info.guid()] = world;
+}
+
+void WorldDirectory::on_participant_discovery(dds::DomainParticipant*,
+                                              rtps::ParticipantDiscoveryInfo&& info) {
+  using Info = rtps::ParticipantDiscoveryInfo;
+  if (info.status != Info::REMOVED_PARTICIPANT && info.status != Info::DROPPED_PARTICIPANT) return;
+  const std::lock_guard lock(mutex_);
+  std::erase_if(worlds_, [&](const auto& entry) {
+    return entry.first.guidPrefix == info.info.m_guid.guidPrefix;
+  });
+}
+
+BusCore::BusCore(const BusOptions& options) {
+  if (options.domain < 0 || options.domain > kMaxDomain)
+    throw Error("domain " + std::to_string(options.domain) + " is not between 0 and " +
+                std::to_string(kMaxDomain));
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  factory->load_profiles();  // FASTRTPS_DEFAULT_PROFILES_FILE becomes the default
+  dds::DomainParticipantQos qos = factory->get_default_participant_qos();
+  set_participant_qos(options, qos);
+  participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain), qos,
+                                             &directory_, dds::StatusMask::none());
+  if (participant_ != nullptr) {
+    publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+    subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  }
+  if (publisher_ == nullptr || subscriber_ == nullptr)
+    throw Error("domain " + std::to_string(options.domain) + ": the bus cannot be joined");
+}
+
+BusCore::~BusCore() {
+  if (participant_ == nullptr) return;
+  participant_->set_listener(nullptr);
+  participant_->delete_contained_entities();
+  dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+}
+
+dds::Topic* BusCore::topic(const std::string& name, dds::TypeSupport type) {
+  const std::lock_guard lock(topics_mutex_);
+  if (auto* known = dynamic_cast<dds::Topic*>(participant_->lookup_topicdescription(name)))
+    return known;
+  dds::Topic* topic = nullptr;
+  if (type.register_type(participant_) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)
+    topic = participant_->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+  if (topic == nullptr) throw Error("topic " + name + ": cannot be made");
+  return topic;
+}
+
+Participant::Participant(const BusOptions& options)
+    : impl_(std::make_unique<Impl>(Impl{std::make_shared<BusCore>(options)})) {}
+Participant::~Participant() = default;
+Participant::Participant(Participant&&) noexcept = default;
+Participant& Participant::operator=(Participant&&) noexcept = default;
+
+std::vector<std::string> Participant::worlds() const {
+  return impl_->core->directory().worlds();
+}
+
+}  // namespace poinsot

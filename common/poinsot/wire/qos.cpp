@@ -1,0 +1,132 @@
+#include "poinsot/wire/qos.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+
+#include "poinsot/base/check.h"
+#include "poinsot/protocol/limits.h"
+
+namespace poinsot {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastdds::rtps;
+using eprosima::fastrtps::Duration_t;
+
+constexpr int kBodies = static_cast<int>(kMaxBodies);
+
+// Poses: a writer depth of 4 survives the repair of a lost fragment; the reader's second of frames
+// is what a busy program may fall behind without a gap. Commands: see the reader that keeps all.
+constexpr std::array<TopicQos, 6> kTopics = {{
+    // topic    late joiners  writer  reader  keeps all  instances
+    {"poses", false, 4, 60, false, 1},
+    {"scene", true, 1, 1, false, kBodies},
+    {"report", true, 1, 1, false, 1},
+    {"wrench", false, 256, 1024, true, 1},
+    {"control", false, 256, 1024, true, 1},
+    {"reply", false, 1024, 1024, false, 1},
+}};
+
+constexpr std::uint32_t kMegabyte = 1u << 20;
+constexpr std::uint32_t kPoseBytes = 112;      // of one body in a frame
+constexpr std::uint32_t kFramesInSegment = 6;  // fewer, and frames arrive by repair only
+constexpr std::uint32_t kMaxMessage = 65500;   // [bytes] one datagram; larger samples are fragments
+constexpr std::uint32_t kSocketBuffer = 4 * kMegabyte;
+// Participants of one domain on this host that find each other: an announcement goes to each of
+// their ports. More would leave the range of ports on the highest domain, which ends the process.
+constexpr std::uint32_t kMaxLocalParticipants = 60;
+constexpr const char* kLoopback = "127.0.0.1";
+constexpr const char* kMulticast = "239.255.0.1";  // RTPS default, section 9.6.1.4.1
+
+Duration_t milliseconds(int n) {
+  return {n / 1000, static_cast<std::uint32_t>(n % 1000) * 1'000'000u};
+}
+
+dds::ResourceLimitsQosPolicy limits(const TopicQos& topic, int depth) {
+  dds::ResourceLimitsQosPolicy limits;
+  limits.max_instances = topic.instances;
+  limits.max_samples_per_instance = depth;
+  limits.max_samples = topic.instances * depth;
+  limits.allocated_samples = std::min(limits.max_samples, 16);
+  return limits;
+}
+
+void add_peer(dds::DomainParticipantQos& qos, const char* address, std::uint32_t port) {
+  eprosima::fastrtps::rtps::Locator_t peer;
+  eprosima::fastrtps::rtps::IPLocator::setIPv4(peer, address);
+  peer.port = port;  // 0: the ports of the first kMaxLocalParticipants participants
+  qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+}
+
+}  // namespace
+
+const TopicQos& topic_qos(std::string_view topic) {
+  const auto row = std::find_if(kTopics.begin(), kTopics.end(), [&](const TopicQos& candidate) {
+    return candidate.topic == topic;
+  });
+  POINSOT_CHECK(row != kTopics.end());
+  return *row;
+}
+
+void set_writer_qos(const TopicQos& topic, dds::DataWriterQos& qos) {
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().max_blocking_time = milliseconds(5);
+  qos.durability().kind =
+      topic.late_joiners ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = topic.writer_depth;
+  qos.resource_limits() = limits(topic, topic.writer_depth);
+  qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+  qos.data_sharing().off();
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+  // A sample that was lost is noticed after this time, if no other follows it.
+  qos.reliable_writer_qos().times.heartbeatPeriod = milliseconds(100);
+}
+
+void set_reader_qos(const TopicQos& topic, dds::DataReaderQos& qos) {
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind =
+      topic.late_joiners ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind =
+      topic.reader_keeps_all ? dds::KEEP_ALL_HISTORY_QOS : dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = topic.reader_depth;
+  qos.resource_limits() = limits(topic, topic.reader_depth);
+  qos.data_sharing().off();
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+}
+
+std::uint32_t segment_size(std::size_t bodies) {
+  const std::size_t wanted = kFramesInSegment * bodies * kPoseBytes + kMegabyte;
+  return static_cast<std::uint32_t>(
+      std::clamp<std::size_t>(wanted, kMegabyte, std::size_t{128} * kMegabyte));
+}
+
+void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& qos) {
+  auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
+  udp->sendBufferSize = kSocketBuffer;  // the kernel grants what net.core allows
+  udp->receiveBufferSize = kSocketBuffer;
+  udp->maxMessageSize = kMaxMessage;
+  udp->maxInitialPeersRange = kMaxLocalParticipants;
+  if (!options.lan) udp->interfaceWhiteList.emplace_back(kLoopback);
+  auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
+  shared_memory->segment_size(segment_size(options.bodies));
+  shared_memory->max_message_size(kMaxMessage);
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports = {udp, shared_memory};
+
+  auto& builtin = qos.wire_protocol().builtin;
+  builtin.discovery_config.leaseDuration = milliseconds(5000);
+  builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(1500);
+  builtin.discovery_config.initial_announcements = {10, milliseconds(50)};
+  // Loopback need not be able to multicast: participants of this host are greeted one by one.
+  add_peer(qos, kLoopback, 0);
+  if (options.lan)
+    add_peer(qos, kMulticast,
+             qos.wire_protocol().port.getMulticastPort(static_cast<std::uint32_t>(options.domain)));
+}
+
+}  // namespace poinsot

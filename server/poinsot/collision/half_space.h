@@ -1,0 +1,18 @@
+// Any convex shape against a half-space: closed forms.
+//
+// The gap of a point is its height above the plane, exact. Boxes and polyhedra contribute all
+// corners within the margin; cylinders and cones the corners of the facing cap or edge, of which
+// one is the true deepest; spheres, capsules and ellipsoids their own deepest points.
+
+#pragma once
+
+#include "poinsot/collision/manifold.h"
+
+namespace poinsot {
+
+// Normal from the half-space to the shape; in the shape's frame S. `plane_normal`, `plane_offset`
+// are those of the half-space in S.
+void shape_on_half_space(const Collider& shape, const Vec3& plane_normal, double plane_offset,
+                         double margin, Manifold& manifold);
+
+}  // namespace poinsot
