@@ -57,7 +57,7 @@ void route_log(const Logger& logger) {
   route_bus_log([logger](BusLogLevel level, const std::string& message) {
     const bool error = level == BusLogLevel::error;
     logger->log(error ? spdlog::level::warn : spdlog::level::info, "bus message={}",
-                quoted(message));
+                poinsot::quoted(message));
   });
 }
 

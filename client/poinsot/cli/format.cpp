@@ -61,8 +61,11 @@ std::string shape_text(const BodyInfo& body) {
 
 std::string flags_text(FrameFlag flags) {
   std::string text;
-  for (const Named<FrameFlag>& row : kFrameFlagNames)
-    if (has_flag(flags, row.value)) text += (text.empty() ? "" : " ") + std::string(row.name);
+  for (const Named<FrameFlag>& row : kFrameFlagNames) {
+    if (!has_flag(flags, row.value)) continue;
+    if (!text.empty()) text += ' ';
+    text += row.name;
+  }
   return text.empty() ? "none" : text;
 }
 
@@ -73,7 +76,8 @@ std::string pose_lines(const PoseSnapshot& poses, const Roster& roster) {
   for (const BodyState& body : poses.bodies) {
     const std::string* const name = roster.shown(body.id);
     if (name == nullptr) continue;
-    text += fmt::format("{} {:.9g} {}", poses.frame, seconds(poses.sim_time_ns), quoted(*name));
+    text += fmt::format("{} {:.9g} {}", poses.frame, seconds(poses.sim_time_ns),
+                        poinsot::quoted(*name));
     for (const double x : body.position) text += fmt::format(" {:.9g}", x);
     for (const double x : body.orientation.coeffs()) text += fmt::format(" {:.9g}", x);
     for (const double x : body.linear_velocity) text += fmt::format(" {:.9g}", x);

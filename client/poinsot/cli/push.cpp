@@ -1,5 +1,6 @@
 #include "poinsot/cli/push.h"
 
+#include <array>
 #include <cstdio>
 
 #include "poinsot/base/error.h"
@@ -9,6 +10,10 @@
 
 namespace poinsot {
 namespace {
+
+constexpr std::array<Named<Axes>, 2> kAxesNames = {{{"world", Axes::world}, {"body", Axes::body}}};
+constexpr std::array<Named<PointFrame>, 2> kPointFrameNames = {
+    {{"world", PointFrame::world}, {"body", PointFrame::body}}};
 
 ExitCode push(const Context& context, const PushOptions& options) {
   const WrenchCommand command = to_command(options);
@@ -36,21 +41,17 @@ void add_push_options(CLI::App& app, PushOptions& options) {
   });
   add_vector_option(app, "--torque", options.torque, "[N m] a free couple")
       ->each([&options](const std::string&) { options.has_wrench = true; });
-  app.add_option("--frame", options.axes, "axes of force and torque: world (the default) or body")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Axes>{{"world", Axes::world}, {"body", Axes::body}}))
-      ->type_name("world|body");
-  add_vector_option(app, "--at", options.at, "[m] where the force acts [the centre of mass]")
-      ->each([&options](const std::string&) { options.has_point = true; });
-  app.add_option("--at-frame", options.at_frame,
-                 "frame of that point: body (from its origin, the default) or world")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, PointFrame>{
-          {"world", PointFrame::world}, {"body", PointFrame::body}}))
-      ->needs("--at")
-      ->type_name("world|body");
+  add_choice_option<Axes>(app, "--frame", options.axes, kAxesNames,
+                          "axes of force and torque [world]");
+  CLI::Option* const at =
+      add_vector_option(app, "--at", options.at, "[m] where the force acts [the centre of mass]")
+          ->each([&options](const std::string&) { options.has_point = true; });
+  add_choice_option<PointFrame>(app, "--at-frame", options.at_frame, kPointFrameNames,
+                                "frame of that point; body: from its origin [body]")
+      ->needs(at);
   CLI::Option* const duration =
       add_duration_option(app, "--for", options.duration,
-                          "how long, in simulated time, rounded up to frames [1 frame]");
+                          "how long, in simulated time; rounded up to frames [one frame]");
   duration->each([&options](const std::string&) { options.has_duration = true; });
   app.add_option("--from-frame", options.from_frame, "first frame of effect [the next]")
       ->type_name("N");

@@ -14,6 +14,7 @@ namespace {
 struct CommandLine {
   CommandLine()
       : app("Client of poinsotd: watch, push and control a running simulation.", "poinsot") {
+    set_plain_help(app);
     add_version_option(app);
     app.require_subcommand(1);
     app.footer(exit_code_help() + "\nEach verb has its own --help.");

@@ -81,7 +81,7 @@ class Watch {
   // A daemon that restarted with another scene. Throws Error if a wanted body is gone.
   void renew_roster() {
     roster_ = Roster(client_.scene(context_.flags.timeout), options_.bodies);
-    context_.logger->info("scene_changed world={}", quoted(client_.world()));
+    context_.logger->info("scene_changed world={}", poinsot::quoted(client_.world()));
   }
 
   // A watch without end waits for the frames to come back; a counted one does not.
@@ -90,7 +90,7 @@ class Watch {
     const std::string text = "no frame of world '" + client_.world() +
                              "' came: is it paused, or gone? See 'poinsot status'";
     if (options_.count > 0) throw NoAnswer(text);
-    if (!screen_) context_.logger->warn("no_frames world={}", quoted(client_.world()));
+    if (!screen_) context_.logger->warn("no_frames world={}", poinsot::quoted(client_.world()));
     silent_since_ = Clock::now();
   }
 
@@ -119,6 +119,7 @@ class Watch {
 
 void add_watch_options(CLI::App& app, WatchOptions& options) {
   app.add_option("--body", options.bodies, "only this body; may be given several times")
+      ->allow_extra_args(false)
       ->type_name("NAME");
   app.add_option("--rate", options.rate, "at most so many frames a second [all; the table: 10]")
       ->check(CLI::PositiveNumber)
