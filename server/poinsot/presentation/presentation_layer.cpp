@@ -50,21 +50,19 @@ void PresentationLayer::capture() {
   snapshot_.frame = frame_;
   snapshot_.sim_time_ns = std::llround(static_cast<double>(frame_) * 1e9 / frame_rate());
   snapshot_.state_hash = state_hash(frame_, collision_, held_);
-}
 
-FrameReport PresentationLayer::report() const {
   const CollisionReport& collision = collision_.report();
   const std::uint32_t quarantined = collision_.simulation().quarantined();
-  return {.frame = frame_,
-          .sim_time = time(),
-          .bodies = static_cast<std::uint32_t>(columns_.size()),
-          .contacts = collision.contacts,
-          .quarantined = quarantined,
-          .energy = collision_.energy(),
-          .energy_error = collision_.energy_error(),
-          .push_out_energy = collision.push_out_energy,
-          .max_penetration = collision.max_penetration,
-          .flags = quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none};
+  report_ = {.frame = frame_,
+             .sim_time = time(),
+             .bodies = static_cast<std::uint32_t>(columns_.size()),
+             .contacts = collision.contacts,
+             .quarantined = quarantined,
+             .energy = collision_.energy(),
+             .energy_error = collision_.energy_error(),
+             .push_out_energy = collision.push_out_energy,
+             .max_penetration = collision.max_penetration,
+             .flags = quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none};
 }
 
 LayerTimes PresentationLayer::times() const {
