@@ -43,7 +43,7 @@ class DaemonTest : public testing::Test {
     options.domain = test_domain();
     logger_->set_level(spdlog::level::off);
     daemon_.emplace(scene, options, logger_, [this] { ended_ = true; });
-    client_.emplace(ClientOptions{.world = scene.world, .domain = test_domain(), .client = 1});
+    client_.emplace(ClientOptions{.world = scene.world, .domain = test_domain()});
     client_->wait_for_server(kPatience);
   }
 
@@ -86,9 +86,11 @@ TEST_F(DaemonTest, APushChangesTheVelocityOnTheFramesThatTheReplyNames) {
 TEST_F(DaemonTest, MalformedCommandsAreAnsweredAndLeaveTheRunUntouched) {
   const Scene scene = two_boxes("malformed");
   start(scene, {.paused = true});
-  WrenchCommand good{.client = 1, .seq = 1, .body_name = "box", .force = Vec3(5, 1, 0)};
-  good.hold = Hold::until_cleared;
-  ASSERT_EQ(client_->apply(good, kPatience).code, ResultCode::ok);
+  WrenchCommand good{.body_name = "box", .force = Vec3(5, 1, 0), .hold = Hold::until_cleared};
+  const Reply accepted = client_->apply(good, kPatience);
+  ASSERT_EQ(accepted.code, ResultCode::ok);
+  good.client = accepted.client;  // part of the hash while the wrench is held
+  good.seq = accepted.seq;
 
   const std::vector<std::pair<ResultCode, std::function<void(WrenchCommand&)>>> spoilers = {
       {ResultCode::not_found, [](auto& c) { c.body_name = "bxo"; }},
