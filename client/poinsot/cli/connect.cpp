@@ -39,7 +39,7 @@ class Patience {
 
  private:
   Clock::time_point end_;
-  Clock::time_point tell_at_ = Clock::now() + 400ms;  // a server that runs is usually met before
+  Clock::time_point tell_at_ = Clock::now() + 1s;  // a server that runs is usually met before
 };
 
 // The calls of one user on one host are one client on the bus: what one call holds, a later one can
