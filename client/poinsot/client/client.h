@@ -25,7 +25,7 @@
 namespace poinsot {
 
 struct ClientOptions {
-  std::string world;  // empty: the only one there is
+  std::string world = {};  // empty: the only one there is
   int domain = 77;    // DDS domain
   bool lan = false;   // false: this host only
   // Identity on the bus; 0: drawn at random. Who shares one counts as one client: what one holds,

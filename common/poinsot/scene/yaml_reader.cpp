@@ -10,7 +10,7 @@
 namespace poinsot {
 namespace {
 
-constexpr std::size_t kMaxRead = 20'000'000;  // values; aliases can multiply what a file holds
+constexpr std::size_t kMaxRead = 10'000'000;  // values; aliases can multiply what a file holds
 constexpr std::size_t kMaxQuote = 60;         // [bytes] of a value repeated in a message
 
 std::string quoted(std::string_view text) {

@@ -6,6 +6,7 @@
 #include <fastdds/dds/log/Log.hpp>
 
 #include "poinsot/base/error.h"
+#include "poinsot/protocol/limits.h"
 #include "poinsot/wire/participant_impl.h"
 #include "poinsot/wire/qos.h"
 #include "poinsot/wire/topics.h"
@@ -57,11 +58,10 @@ std::string checked_topic_name(std::string_view world, std::string_view topic) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  constexpr std::size_t kMaxWorldName = 127;
-  if (world.empty() || world.size() > kMaxWorldName ||
+  if (world.empty() || world.size() > kMaxNameLength ||
       !std::all_of(world.begin(), world.end(), allowed))
-    throw Error("world '" + std::string(world) +
-                "': a world's name has 1 to 127 letters, digits, '_' and '-'");
+    throw Error("world '" + std::string(world) + "': a world's name has 1 to " +
+                std::to_string(kMaxNameLength) + " letters, digits, '_' and '-'");
   return topic_name(world, topic);
 }
 

@@ -14,7 +14,7 @@ struct Overloaded : Fs... {
 };
 
 Vec3 radial(const Vec3& d) {  // unit vector of d's part across z; x where there is none
-  const double r = std::hypot(d.x(), d.y());
+  const double r = std::sqrt(d.x() * d.x() + d.y() * d.y());
   return r > 0 ? Vec3(d.x() / r, d.y() / r, 0) : Vec3(Vec3::UnitX());
 }
 
@@ -61,21 +61,22 @@ double radius_of_core(const Shape& shape) {
 }
 
 // Octagon in the circle of radius r at height z, counter-clockwise seen from outside (`up`: +z).
-Feature cap(double r, double z, bool up, const Vec3& toward) {
+Feature cap(double r, double z, bool up) {
   constexpr double kHalfRoot = 0.70710678118654752440;
-  const Vec3 x = r * radial(toward);
-  const Vec3 y = up ? Vec3(-x.y(), x.x(), 0) : Vec3(x.y(), -x.x(), 0);
+  const double side = up ? r : -r;
+  const Vec3 x(r, 0, 0), y(0, side, 0), middle(0, 0, z);
   Feature f;
-  const std::array<Vec3, 8> around = {x,  kHalfRoot * (x + y),  y,  kHalfRoot * (y - x),
-                                      -x, kHalfRoot * (-x - y), -y, kHalfRoot * (x - y)};
-  for (const Vec3& p : around) f.add(p + Vec3(0, 0, z));
+  for (const Vec3& p : {x, Vec3(kHalfRoot * (x + y)), y, Vec3(kHalfRoot * (y - x)), Vec3(-x),
+                        Vec3(kHalfRoot * (-x - y)), Vec3(-y), Vec3(kHalfRoot * (x - y))})
+    f.add(p + middle);
   return f;
 }
 
-Feature segment(const Vec3& a, const Vec3& b) {
+Feature segment(const Vec3& a, const Vec3& b, double round_a, double round_b) {
   Feature f;
   f.add(a);
   f.add(b);
+  f.round = {round_a, round_b};
   return f;
 }
 
@@ -171,29 +172,32 @@ Aabb bounds(const Collider& collider, const Pose& pose) {
   return aabb;
 }
 
-Feature support_feature(const Collider& collider, const Vec3& d, const Vec3& toward) {
-  return std::visit(Overloaded{[](const Sphere&) { return point(Vec3::Zero()); },
-                               [&](const Box& s) { return box_face(0.5 * s.size, d); },
-                               [](const Capsule& s) {
-                                 return segment({0, 0, -0.5 * s.length}, {0, 0, 0.5 * s.length});
-                               },
-                               [&](const Cylinder& s) {
-                                 const double z = 0.5 * s.length;
-                                 if (std::abs(d.z()) > 0.70710678118654752440)
-                                   return cap(s.radius, signed_half(z, d.z()), d.z() > 0, toward);
-                                 const Vec3 side = s.radius * radial(d);
-                                 return segment(side - Vec3(0, 0, z), side + Vec3(0, 0, z));
-                               },
-                               [&](const Cone& s) {
-                                 const Vec3 apex(0, 0, 0.5 * s.length);
-                                 if (d.z() < -0.70710678118654752440)
-                                   return cap(s.radius, -apex.z(), false, toward);
-                                 return segment(s.radius * radial(d) - apex, apex);
-                               },
-                               [&](const Ellipsoid&) { return point(support(collider, d)); },
-                               [&](const Convex& s) { return convex_face(s, d); },
-                               [](const HalfSpace&) { return Feature{}; }},
-                    collider.shape);
+Feature support_feature(const Collider& collider, const Vec3& d) {
+  constexpr double kCap = 0.70710678118654752440;  // nearer the axis than 45°: a cap, else a side
+  return std::visit(
+      Overloaded{[](const Sphere&) { return point(Vec3::Zero()); },
+                 [&](const Box& s) { return box_face(0.5 * s.size, d); },
+                 [](const Capsule& s) {
+                   return segment({0, 0, -0.5 * s.length}, {0, 0, 0.5 * s.length}, 0, 0);
+                 },
+                 [&](const Cylinder& s) {
+                   const double z = 0.5 * s.length;
+                   if (std::abs(d.z()) > kCap)
+                     return cap(s.radius, signed_half(z, d.z()), d.z() > 0);
+                   const Vec3 side = s.radius * radial(d);
+                   return segment(side - Vec3(0, 0, z), side + Vec3(0, 0, z), s.radius, s.radius);
+                 },
+                 [&](const Cone& s) {
+                   const Vec3 apex(0, 0, 0.5 * s.length);
+                   if (d.z() < -kCap) return cap(s.radius, -apex.z(), false);
+                   const double slope = s.radius / s.length;
+                   return segment(s.radius * radial(d) - apex, apex,
+                                  s.radius * std::sqrt(1 + slope * slope), 0);
+                 },
+                 [&](const Ellipsoid&) { return point(support(collider, d)); },
+                 [&](const Convex& s) { return convex_face(s, d); },
+                 [](const HalfSpace&) { return Feature{}; }},
+      collider.shape);
 }
 
 }  // namespace poinsot

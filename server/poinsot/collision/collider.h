@@ -50,16 +50,18 @@ struct Feature {
   static constexpr int kMaxCorners = 16;
   std::array<Vec3, kMaxCorners> corners;  // [m]
   int count = 0;
+  std::array<double, 2> round = {0, 0};  // [m] radius of the surface about an edge, at its ends
 
   void add(const Vec3& corner) {
     if (count < kMaxCorners) corners[static_cast<std::size_t>(count++)] = corner;
   }
   const Vec3& operator[](int i) const { return corners[static_cast<std::size_t>(i)]; }
+  double round_at(double t) const { return (1 - t) * round[0] + t * round[1]; }
 };
 
 // The face, edge or point of the core that looks most along the unit vector d, in S. Round caps are
-// octagons in the circle, one corner in the direction of `toward` (any vector in S), so that the
-// corner nearest the other shape is on the rim.
-Feature support_feature(const Collider& collider, const Vec3& d, const Vec3& toward);
+// octagons in the circle, fixed to the body, so that their corners last from step to step; the
+// deepest point of a tilted rim may lie between two of them.
+Feature support_feature(const Collider& collider, const Vec3& d);
 
 }  // namespace poinsot

@@ -1,182 +1,186 @@
 #include "poinsot/collision/gjk.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace poinsot {
 namespace {
 
-// A simplex of the difference and the barycentric weights of its point nearest the origin.
+// The corners of a simplex that carry its point nearest the origin, in ascending order.
+struct Nearest {
+  std::array<std::size_t, 3> corner{};
+  std::array<double, 3> weight{};
+  std::size_t count = 0;
+
+  static Nearest at_corner(std::size_t i) { return {{i}, {1.0}, 1}; }
+  static Nearest on_edge(std::size_t i, std::size_t j, double t) { return {{i, j}, {1 - t, t}, 2}; }
+};
+
 struct Simplex {
   std::array<DifferencePoint, 4> p;
   std::array<double, 4> weight{};
-  int size = 0;
+  std::size_t size = 0;
 
-  Vec3 w(int i) const { return p[static_cast<std::size_t>(i)].w; }
+  const Vec3& w(std::size_t i) const { return p[i].w; }
 
-  template <class Member>
-  Vec3 blend(Member member) const {
-    Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < size; ++i)
-      sum += weight[static_cast<std::size_t>(i)] * p[static_cast<std::size_t>(i)].*member;
+  Vec3 nearest_to_origin() const {
+    Vec3 sum = weight[0] * p[0].w;
+    for (std::size_t i = 1; i < size; ++i) sum += weight[i] * p[i].w;
     return sum;
   }
-
-  // Keeps the named points with the given weights.
-  void keep(std::initializer_list<std::pair<int, double>> kept) {
-    const auto old = p;
-    size = 0;
-    for (const auto& [i, weight_i] : kept) {
-      p[static_cast<std::size_t>(size)] = old[static_cast<std::size_t>(i)];
-      weight[static_cast<std::size_t>(size)] = weight_i;
-      ++size;
+  Vec3 on_a() const {
+    Vec3 sum = weight[0] * p[0].on_a;
+    for (std::size_t i = 1; i < size; ++i) sum += weight[i] * p[i].on_a;
+    return sum;
+  }
+  void keep(const Nearest& nearest) {
+    for (std::size_t k = 0; k < nearest.count; ++k) {
+      p[k] = p[nearest.corner[k]];
+      weight[k] = nearest.weight[k];
     }
+    size = nearest.count;
+  }
+  bool holds(const Vec3& point) const {
+    for (std::size_t i = 0; i < size; ++i)
+      if (p[i].w == point) return true;
+    return false;
   }
 };
 
-using Kept = std::array<std::pair<int, double>, 3>;
+Vec3 point_of(const Simplex& s, const Nearest& nearest) {
+  Vec3 v = nearest.weight[0] * s.w(nearest.corner[0]);
+  for (std::size_t k = 1; k < nearest.count; ++k) v += nearest.weight[k] * s.w(nearest.corner[k]);
+  return v;
+}
 
-// Nearest point to the origin on triangle (i, j, k): which corners carry it, how many.
-int nearest_on_triangle(const Simplex& s, int i, int j, int k, Kept& kept) {
-  const Vec3 a = s.w(i), b = s.w(j), c = s.w(k);
+Nearest nearest_on_segment(const Simplex& s, std::size_t i, std::size_t j) {
+  const Vec3 ab = s.w(j) - s.w(i);
+  const double along = -s.w(i).dot(ab), length2 = ab.squaredNorm();
+  if (along <= 0) return Nearest::at_corner(i);
+  if (along >= length2) return Nearest::at_corner(j);
+  return Nearest::on_edge(i, j, along / length2);
+}
+
+// For triangles so thin that rounding leaves no inside.
+Nearest nearest_on_rim(const Simplex& s, std::size_t i, std::size_t j, std::size_t k) {
+  Nearest best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Nearest& edge :
+       {nearest_on_segment(s, i, j), nearest_on_segment(s, i, k), nearest_on_segment(s, j, k)}) {
+    const double d2 = point_of(s, edge).squaredNorm();
+    if (d2 >= least) continue;
+    least = d2;
+    best = edge;
+  }
+  return best;
+}
+
+Nearest nearest_on_triangle(const Simplex& s, std::size_t i, std::size_t j, std::size_t k) {
+  const Vec3 &a = s.w(i), &b = s.w(j), &c = s.w(k);
   const Vec3 ab = b - a, ac = c - a;
   const double d1 = -ab.dot(a), d2 = -ac.dot(a);
-  if (d1 <= 0 && d2 <= 0) return kept[0] = {i, 1.0}, 1;
+  if (d1 <= 0 && d2 <= 0) return Nearest::at_corner(i);
   const double d3 = -ab.dot(b), d4 = -ac.dot(b);
-  if (d3 >= 0 && d4 <= d3) return kept[0] = {j, 1.0}, 1;
+  if (d3 >= 0 && d4 <= d3) return Nearest::at_corner(j);
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-    const double t = d1 / (d1 - d3);
-    return kept[0] = {i, 1 - t}, kept[1] = {j, t}, 2;
-  }
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return Nearest::on_edge(i, j, d1 / (d1 - d3));
   const double d5 = -ab.dot(c), d6 = -ac.dot(c);
-  if (d6 >= 0 && d5 <= d6) return kept[0] = {k, 1.0}, 1;
+  if (d6 >= 0 && d5 <= d6) return Nearest::at_corner(k);
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-    const double t = d2 / (d2 - d6);
-    return kept[0] = {i, 1 - t}, kept[1] = {k, t}, 2;
-  }
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return Nearest::on_edge(i, k, d2 / (d2 - d6));
   const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return kept[0] = {j, 1 - t}, kept[1] = {k, t}, 2;
-  }
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+    return Nearest::on_edge(j, k, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  if (!(va > 0 && vb > 0 && vc > 0)) return nearest_on_rim(s, i, j, k);
   const double sum = va + vb + vc;
-  return kept[0] = {i, va / sum}, kept[1] = {j, vb / sum}, kept[2] = {k, vc / sum}, 3;
+  return {{i, j, k}, {va / sum, vb / sum, vc / sum}, 3};
 }
 
-void reduce_segment(Simplex& s) {
-  const Vec3 a = s.w(0), ab = s.w(1) - a;
-  const double length2 = ab.squaredNorm();
-  const double t = length2 > 0 ? -a.dot(ab) / length2 : 0;
-  if (t <= 0) return s.keep({{0, 1.0}});
-  if (t >= 1) return s.keep({{1, 1.0}});
-  s.keep({{0, 1 - t}, {1, t}});
-}
-
-void keep(Simplex& s, const Kept& kept, int count) {
-  if (count == 1) return s.keep({kept[0]});
-  if (count == 2) return s.keep({kept[0], kept[1]});
-  s.keep({kept[0], kept[1], kept[2]});
-}
-
-void reduce_triangle(Simplex& s) {
-  Kept kept;
-  const int count = nearest_on_triangle(s, 0, 1, 2, kept);
-  keep(s, kept, count);
+// Whether the origin and corner `apex` lie on the same side of a face; a tetrahedron flat to within
+// `flat` [m] has no inside.
+bool same_side(const Simplex& s, std::size_t i, std::size_t j, std::size_t k, std::size_t apex,
+               double flat) {
+  const Vec3& a = s.w(i);
+  const Vec3 n = (s.w(j) - a).cross(s.w(k) - a);
+  const double origin = -a.dot(n), inner = (s.w(apex) - a).dot(n);
+  return inner * inner > flat * flat * n.squaredNorm() && (origin > 0) == (inner > 0);
 }
 
 // True if the origin is inside; otherwise reduces to the nearest face, edge or corner.
-bool reduce_tetrahedron(Simplex& s) {
-  constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
-  double best = std::numeric_limits<double>::infinity();
-  Kept best_kept;
-  int best_count = 0;
-  bool outside = false;
+bool reduce_tetrahedron(Simplex& s, double flat) {
+  constexpr std::size_t kFaces[4][4] = {{0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}, {0, 1, 2, 3}};
+  double least = std::numeric_limits<double>::infinity();
+  Nearest best;
   for (const auto& f : kFaces) {
-    const Vec3 a = s.w(f[0]);
-    const Vec3 n = (s.w(f[1]) - a).cross(s.w(f[2]) - a);
-    const double origin_side = -a.dot(n), inner_side = (s.w(f[3]) - a).dot(n);
-    // A flat tetrahedron has no inner side: all its faces are candidates.
-    if (inner_side != 0 && (origin_side > 0) == (inner_side > 0) && origin_side != 0) continue;
-    outside = true;
-    Kept kept;
-    const int count = nearest_on_triangle(s, f[0], f[1], f[2], kept);
-    Vec3 v = Vec3::Zero();
-    for (int i = 0; i < count; ++i)
-      v += kept[static_cast<std::size_t>(i)].second * s.w(kept[static_cast<std::size_t>(i)].first);
-    if (v.squaredNorm() < best) {
-      best = v.squaredNorm();
-      best_kept = kept;
-      best_count = count;
-    }
+    if (same_side(s, f[0], f[1], f[2], f[3], flat)) continue;
+    const Nearest nearest = nearest_on_triangle(s, f[0], f[1], f[2]);
+    const double d2 = point_of(s, nearest).squaredNorm();
+    if (d2 >= least) continue;
+    least = d2;
+    best = nearest;
   }
-  if (!outside) return true;
-  keep(s, best_kept, best_count);
+  if (best.count == 0) return true;
+  s.keep(best);
   return false;
 }
 
-bool reduce(Simplex& s) {
+bool reduce(Simplex& s, double flat) {
   if (s.size == 1) s.weight[0] = 1;
-  if (s.size == 2) reduce_segment(s);
-  if (s.size == 3) reduce_triangle(s);
-  return s.size == 4 && reduce_tetrahedron(s);
-}
-
-bool holds(const Simplex& s, const Vec3& w) {
-  for (int i = 0; i < s.size; ++i)
-    if (s.w(i) == w) return true;
-  return false;
+  if (s.size == 2) s.keep(nearest_on_segment(s, 0, 1));
+  if (s.size == 3) s.keep(nearest_on_triangle(s, 0, 1, 2));
+  return s.size == 4 && reduce_tetrahedron(s, flat);
 }
 
 }  // namespace
 
 DifferencePoint difference_support(const ConvexPair& pair, const Vec3& d) {
   const Vec3 on_a = pair.support_a(d);
-  const Vec3 on_b = pair.support_b(-d);
-  return {on_a - on_b, on_a, on_b};
+  return {on_a - pair.support_b(-d), on_a};
 }
 
-GjkResult gjk(const ConvexPair& pair) {
+GjkResult gjk(const ConvexPair& pair, double enough) {
   GjkResult result;
   Simplex s;
-  const double touch = kGjkTouch * pair.scale, gap = kGjkGap * pair.scale;
+  const double touch = pair.at_least_rounding(kGjkTouch * pair.small);
+  const double gap = pair.at_least_rounding(kGjkGap * pair.small);
   Vec3 v = pair.c.squaredNorm() > 0 ? Vec3(-pair.c) : Vec3(Vec3::UnitX());
-  double distance = std::numeric_limits<double>::infinity();
-  bool inside = false;
+  double length = v.norm();
+  bool touching = false;
 
-  for (result.iterations = 0; result.iterations < kGjkIterations; ++result.iterations) {
+  for (; result.iterations < kGjkIterations; ++result.iterations) {
     const DifferencePoint next = difference_support(pair, -v);
-    if (s.size > 0) {
-      distance = v.norm();
-      result.lower = std::max(result.lower, v.dot(next.w) / distance);
-      if (distance - result.lower <= gap || holds(s, next.w)) break;
-    }
-    const Simplex before = s;
-    const Vec3 v_before = v;
-    s.p[static_cast<std::size_t>(s.size++)] = next;
-    inside = reduce(s);
-    if (inside) break;
-    v = s.blend(&DifferencePoint::w);
-    if (v.norm() <= touch) {
-      inside = true;
+    result.lower = std::max(result.lower, v.dot(next.w) / length);
+    if (s.size > 0 && (length - result.lower <= gap || result.lower > enough || s.holds(next.w)))
       break;
+    const Simplex before = s;
+    s.p[s.size++] = next;
+    const bool inside = reduce(s, pair.rounding());
+    const Vec3 v_before = v;
+    const double length_before = length;
+    if (!inside) {
+      v = s.nearest_to_origin();
+      length = v.norm();
     }
-    if (before.size > 0 && v.squaredNorm() >= v_before.squaredNorm()) {  // rounding floor
+    // No nearer, or inside against the lower bound: as far as rounding lets it come.
+    const bool stalled = before.size > 0 && !inside && length >= length_before;
+    if (stalled || (inside && result.lower > touch)) {
       s = before;
       v = v_before;
+      length = length_before;
       break;
     }
+    touching = inside || length <= touch;
+    if (touching) break;
   }
 
   result.simplex = s.p;
-  result.size = s.size;
-  if (inside) return result;
-  result.separated = true;
-  result.distance = v.norm();
-  result.normal = v / result.distance;
-  result.on_a = s.blend(&DifferencePoint::on_a);
-  result.on_b = s.blend(&DifferencePoint::on_b);
+  result.size = static_cast<int>(s.size);
+  if (s.size < 4) {
+    result.on_a = s.on_a();
+    result.on_b = result.on_a - s.nearest_to_origin();
+  }
+  result.separated = !touching;
+  result.distance = length;
+  result.normal = v / length;
   return result;
 }
 

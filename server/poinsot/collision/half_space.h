@@ -1,8 +1,7 @@
 // Any convex shape against a half-space: closed forms.
 //
-// The gap of a point is its height above the plane, exact. Boxes and polyhedra contribute all
-// corners within the margin; cylinders and cones the corners of the facing cap or edge, of which
-// one is the true deepest; spheres, capsules and ellipsoids their own deepest points.
+// The gap of a point is its height above the plane, exact. The facing face, cap or edge contributes
+// its corners within the margin, and the deepest point is always among them.
 
 #pragma once
 

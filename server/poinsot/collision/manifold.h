@@ -30,24 +30,30 @@ struct Manifold {
 
 // Where a query found the cores nearest or deepest, in A's frame.
 struct Witness {
-  Vec3 normal;           // unit, from B to A
-  Vec3 on_a, on_b;       // [m] on the cores
-  double gap = 0;        // [m] of the shapes: radii taken off
-  bool is_point = true;  // the two points are a contact by themselves, not only a plane's depth
+  Vec3 normal;      // unit, from B to A
+  Vec3 on_a, on_b;  // [m] on the cores
+  double gap = 0;   // [m] of the shapes: radii taken off
 };
 
 // The manifold about a witness, in A's frame: the features of both cores that face each other are
 // clipped against one another. A pair without facing features, such as crossed edges, keeps the
-// witness alone.
+// witness alone. The least gap is the witness's, or above it by less than kSameGap of the smaller
+// body.
 // Source: support-face clipping (Sutherland and Hodgman 1974).
 void build_manifold(const ConvexPair& pair, const Witness& witness, double margin,
                     Manifold& manifold);
 
+inline constexpr double kSameGap = 1e-7;  // [-] of the smaller body: gaps that count as equal
+
 // Candidates for a manifold, reduced to the four that span it best: the deepest, the farthest from
-// it, the one that spans the largest triangle with both, and the farthest beyond that triangle.
+// it, the one that spans the largest triangle with both, and the farthest beyond that triangle. Of
+// points equally deep to within `same_gap` [m] the first is the deepest, so that the choice does
+// not jump with the last bits of a resting body.
 class PointSet {
  public:
   static constexpr int kCapacity = 40;
+
+  explicit PointSet(double same_gap) : same_gap_(same_gap) {}
 
   void add(const Vec3& point, double gap);  // when full, the shallowest gives way
   int count() const { return count_; }
@@ -57,6 +63,7 @@ class PointSet {
  private:
   std::array<ManifoldPoint, static_cast<std::size_t>(kCapacity)> points_;
   int count_ = 0;
+  double same_gap_;
 };
 
 }  // namespace poinsot

@@ -67,9 +67,9 @@ void PresentationLayer::capture() {
 
 LayerTimes PresentationLayer::times() const {
   LayerTimes times = times_;
-  times.collision += collision_.collision_elapsed();
-  times.contact += collision_.contact_elapsed();
-  times.simulation += collision_.simulation().elapsed();
+  times.collision += collision_.times().collision;
+  times.contact += collision_.times().contact;
+  times.simulation += collision_.times().simulation;
   return times;
 }
 

@@ -26,11 +26,11 @@
 namespace poinsot {
 
 struct FrameLoopOptions {
-  std::uint64_t session = 0;                                 // stamped on snapshots and reports
-  bool fast = false;                                         // not paced
-  bool paused = false;                                       // at the start
-  std::uint64_t frames = 0;                                  // end after so many; 0: when stopped
-  std::function<void(const PresentationLayer&)> each_frame;  // if set, frame 0 included
+  std::uint64_t session = 0;  // stamped on snapshots and reports
+  bool fast = false;          // not paced
+  bool paused = false;        // at the start
+  std::uint64_t frames = 0;   // end after so many; 0: when stopped
+  std::function<void(const PresentationLayer&)> each_frame = {};  // if set, frame 0 included
 };
 
 class FrameLoop {

@@ -202,7 +202,8 @@ Scene shipped(const std::string& name) {
 }
 
 TEST(ShippedScenes, TheRacketFlipsWhenItsHeaderSays) {
-  const BodyDef& racket = shipped("tennis_racket").bodies.at(0);
+  const Scene scene = shipped("tennis_racket");
+  const BodyDef& racket = scene.bodies.at(0);
   const Mat3& inertia = racket.mass_properties.J;
   ASSERT_TRUE(inertia.isDiagonal(1e-15));
   const Vec3 J = inertia.diagonal();
