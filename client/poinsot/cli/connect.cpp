@@ -91,8 +91,8 @@ Client connect(const Context& context, StopSignals* stop) {
     try {
       client.wait_for_server(patience.next(kSlice));
       return client;
-    } catch (const SeveralWorlds&) {
-      throw;
+    } catch (const SeveralWorlds& several) {
+      throw NoAnswer(std::string(several.what()) + " (--world NAME)");
     } catch (const NoAnswer& none) {
       if (patience.is_over()) throw NoAnswer(no_server_text(flags, none.what()));
     }
