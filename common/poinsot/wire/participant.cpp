@@ -45,6 +45,19 @@ std::string world_of(std::string_view topic) {
   return std::string(topic);
 }
 
+// Numbers that no participant of ours in this process has, ascending. Fast DDS would count on for
+// ever; but a participant is greeted at the port of its number, and only small numbers are greeted.
+std::vector<int> free_numbers(dds::DomainParticipantFactory& factory) {
+  std::set<int> taken;
+  for (int domain = 0; domain <= kMaxDomain; ++domain)
+    for (const auto* other : factory.lookup_participants(static_cast<std::uint32_t>(domain)))
+      taken.insert(other->get_qos().wire_protocol().participant_id);
+  std::vector<int> numbers;
+  for (int number = 0; number < kMaxLocalParticipants; ++number)
+    if (!taken.contains(number)) numbers.push_back(number);
+  return numbers;
+}
+
 }  // namespace
 
 void route_bus_log(BusLog log) {
@@ -101,8 +114,14 @@ BusCore::BusCore(const BusOptions& options) {
   factory->load_profiles();  // FASTRTPS_DEFAULT_PROFILES_FILE becomes the default
   dds::DomainParticipantQos qos = factory->get_default_participant_qos();
   set_participant_qos(options, qos);
-  participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain), qos,
-                                             &directory_, dds::StatusMask::none());
+  // Another library of this process, or another thread, may have taken a number.
+  constexpr std::size_t kAttempts = 4;
+  const std::vector<int> numbers = free_numbers(*factory);
+  for (std::size_t i = 0; i < std::min(kAttempts, numbers.size()) && participant_ == nullptr; ++i) {
+    qos.wire_protocol().participant_id = numbers[i];
+    participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain), qos,
+                                               &directory_, dds::StatusMask::none());
+  }
   if (participant_ != nullptr) {
     publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
     subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
