@@ -26,8 +26,8 @@ namespace poinsot {
 
 struct ClientOptions {
   std::string world = {};  // empty: the only one there is
-  int domain = 77;    // DDS domain
-  bool lan = false;   // false: this host only
+  int domain = 77;         // DDS domain
+  bool lan = false;        // false: this host only
 };
 
 // No answer within the time allowed, or no (single) daemon to talk to. The text says which.

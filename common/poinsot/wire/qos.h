@@ -17,7 +17,7 @@ namespace poinsot {
 
 // Participants of one domain on this host that find each other: an announcement goes to the port of
 // each. More would leave the range of ports on the highest domain, which ends the process.
-inline constexpr int kMaxLocalParticipants = 60;
+inline constexpr int kMaxLocalParticipants = 32;
 
 struct TopicQos {
   std::string_view topic;
