@@ -18,14 +18,21 @@ if [[ ! -e $build/build.ninja ]] || ! grep -q '^POINSOT_BUILD_TESTS:BOOL=ON' "$b
 fi
 echo "Building" >&2
 quiet=--quiet
-progress=
-if [[ -t 1 ]]; then quiet= progress=--progress; fi
+if [[ -t 2 ]]; then quiet=; fi
 ninja -C "$build" $quiet >&2 || exit 1
 
+run_ctest() {
+  ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" \
+    --output-junit "$results" "$@" </dev/null
+}
 rm -f "$results"
-ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" $progress \
-  --output-junit "$results" "$@" </dev/null
-code=$?
+if [[ -t 1 ]]; then
+  run_ctest --progress "$@"
+  code=$?
+else
+  run_ctest "$@" | grep -v '^ *Start '
+  code=${PIPESTATUS[0]}
+fi
 
 # The counts stand in the first lines of the JUnit file: tests="…" failures="…" disabled="…" skipped="…".
 if [[ -e $results ]]; then

@@ -30,6 +30,11 @@ std::uint64_t random_id() {
   return id;
 }
 
+std::uint64_t nanoseconds_since_1970() {
+  const auto time = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::nanoseconds(time).count());
+}
+
 std::string seconds(Client::Duration duration) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%g s", std::chrono::duration<double>(duration).count());
@@ -102,10 +107,11 @@ struct Client::Impl {
     return *link;
   }
 
-  std::string nobody(Duration timeout) const {
+  std::string nobody(Duration timeout) const { return nobody(" within " + seconds(timeout)); }
+
+  std::string nobody(const std::string& after = {}) const {
     const std::vector<std::string> worlds = participant.worlds();
     const std::string domain = "domain " + std::to_string(options.domain);
-    const std::string after = " within " + seconds(timeout);
     if (worlds.empty()) return "no daemon found on " + domain + after;
     if (world.empty()) return "no daemon answered on " + domain + after;
     if (std::find(worlds.begin(), worlds.end(), world) != worlds.end())
@@ -119,7 +125,7 @@ struct Client::Impl {
       std::this_thread::sleep_for(kPoll);
     const std::vector<std::string> worlds = participant.worlds();
     if (worlds.size() > 1)
-      throw NoAnswer("several worlds on domain " + std::to_string(options.domain) +
+      throw SeveralWorlds("several worlds on domain " + std::to_string(options.domain) +
                      ", name one of them: " + joined(worlds));
     if (!worlds.empty()) open(worlds.front());
   }
@@ -165,8 +171,9 @@ struct Client::Impl {
   ClientOptions options;
   Participant participant;
   Clock::time_point joined_at;
-  std::uint64_t id = random_id();
-  std::uint64_t seq = 0;
+  std::uint64_t id = options.client != 0 ? options.client : random_id();
+  // Who shares an identity must not use a number twice; the time never stands still between them.
+  std::uint64_t seq = options.client != 0 ? nanoseconds_since_1970() : 0;
   std::string world;
   std::unique_ptr<Link> link;
   PoseSnapshot spare;               // received into, then swapped: a refused sample spoils nothing
@@ -191,7 +198,7 @@ void Client::wait_for_server(Duration timeout) {
   const Clock::time_point until = deadline(timeout);
   if (!impl_->link) impl_->find_the_only_world(until);
   while (!impl_->link || !impl_->link->is_matched()) {
-    if (!impl_->link || Clock::now() >= until) throw NoAnswer(impl_->nobody(timeout));
+    if (!impl_->link || Clock::now() >= until) throw NoAnswer(impl_->nobody());
     std::this_thread::sleep_for(kPoll);
   }
 }

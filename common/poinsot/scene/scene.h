@@ -24,11 +24,11 @@ struct ShapeDef {
 };
 
 struct BodyDef {
-  std::string name;               // unique in the scene
-  bool is_static = false;         // never moves; needs no mass
-  std::vector<ShapeDef> shapes;   // may be empty: a body that touches nothing
-  MassProperties mass_properties; // in B; all zero for a static body
-  Pose pose;                      // of B in W at time 0
+  std::string name;                      // unique in the scene
+  bool is_static = false;                // never moves; needs no mass
+  std::vector<ShapeDef> shapes;          // may be empty: a body that touches nothing
+  MassProperties mass_properties;        // in B; all zero for a static body
+  Pose pose;                             // of B in W at time 0
   Vec3 linear_velocity = Vec3::Zero();   // [m/s] of the centre of mass, in W
   Vec3 angular_velocity = Vec3::Zero();  // [rad/s] in W
   Material material;
@@ -37,8 +37,8 @@ struct BodyDef {
 
 struct SimulationDef {
   IntegratorKind integrator = IntegratorKind::rk4;
-  double step = 0;                    // [s] of the fixed methods; 0: one step per contact step
-  Vec3 gravity = Vec3(0, 0, -9.81);   // [m/s²] in W
+  double step = 0;                   // [s] of the fixed methods; 0: one step per contact step
+  Vec3 gravity = Vec3(0, 0, -9.81);  // [m/s²] in W
 };
 
 struct CollisionDef {
@@ -49,6 +49,13 @@ struct CollisionDef {
   double contact_margin = 0.02;     // [-] gap below which a point is kept in the manifold, relative
                                     // to the smaller body's size
   double push_out_speed = 1.0;      // [m/s] upper bound of the removal of penetration
+
+  // Not keys of the scene file: nothing in a scene needs them otherwise.
+  double allowed_penetration = 1e-5;  // [-] that is left alone, relative to the smaller body's size
+  double push_out_rate = 5;           // [1/s] at which a penetration decays; much faster would lift
+                                      // one side of a stack before the solver has the other
+  double touch_gap = 1e-3;            // [-] below it an arriving pair bounces, relative likewise
+  double overlap = 1e-6;              // [-] more is refused at load, relative likewise
 };
 
 struct PresentationDef {

@@ -94,7 +94,8 @@ std::string size_fault(std::string_view what, double value) {
 
 std::string sizes_fault(std::string_view what, const Vec3& sizes) {
   for (int i = 0; i < 3; ++i)
-    if (auto fault = size_fault(std::string(what).append({' ', "xyz"[i]}), sizes[i]); !fault.empty())
+    if (auto fault = size_fault(std::string(what).append({' ', "xyz"[i]}), sizes[i]);
+        !fault.empty())
       return fault;
   return {};
 }
@@ -138,14 +139,11 @@ struct ShapeFault {
 
 // Masses -----------------------------------------------------------------------------------------
 
-std::string mass_fault(const MassProperties& m) {
-  if (!(m.mass > 0) || !std::isfinite(m.mass))
-    return "mass must be > 0 kg and finite, is " + number(m.mass);
-  if (!sane(m.center_of_mass)) return "center_of_mass must be finite";
-  if (!m.J.allFinite()) return "inertia must be finite";
-  if (is_physical_inertia(m.J)) return {};
-  if (!m.J.isApprox(m.J.transpose(), kUnitSlack)) return "inertia must be symmetric";
-  const Vec3 p = principal_moments(m.J);
+std::string inertia_fault(const Mat3& J) {
+  if (!J.allFinite()) return "inertia must be finite";
+  if (is_physical_inertia(J)) return {};
+  if (!J.isApprox(J.transpose(), kUnitSlack)) return "inertia must be symmetric";
+  const Vec3 p = principal_moments(J);
   return "no solid has this inertia: its principal moments are " + number(p[0]) + ", " +
          number(p[1]) + " and " + number(p[2]) + " kg·m²; " +
          (p[0] > 0 ? "the greatest must not exceed the sum of the other two" : "all must be > 0");
@@ -205,15 +203,20 @@ class Validation {
     check_material(body, path + ".material");
     for (std::size_t k = 0; k < body.shapes.size(); ++k)
       check_shape(body, body.shapes[k], path + ".shapes[" + std::to_string(k) + "]");
-    if (body.is_static)
-      check_static(body, path);
-    else
-      add(body.where, path + ".mass_properties", mass_fault(body.mass_properties));
+    body.is_static ? check_static(body, path) : check_masses(body, path);
+  }
+
+  void check_masses(const BodyDef& body, const std::string& path) {
+    const MassProperties& m = body.mass_properties;
+    if (!(m.mass > 0) || !std::isfinite(m.mass))
+      add(body.where, path + ".mass", "mass must be > 0 kg and finite, is " + number(m.mass));
+    check_vector(body, path + ".center_of_mass", m.center_of_mass, "m");
+    if (m.mass > 0) add(body.where, path + ".inertia", inertia_fault(m.J));
   }
 
   void check_static(const BodyDef& body, const std::string& path) {
     if (body.mass_properties.mass != 0)
-      add(body.where, path + ".mass_properties", "a static body has no mass");
+      add(body.where, path + ".mass", "a static body has no mass");
     if (!body.linear_velocity.isZero(0))
       add(body.where, path + ".linear_velocity", "a static body has no linear_velocity");
     if (!body.angular_velocity.isZero(0))

@@ -1,5 +1,5 @@
-// The collision layer: inside a frame, sub-steps; inside each, contacts are found and resolved and
-// the simulation layer integrates.
+// The collision layer: inside a frame, equal sub-steps; inside each, contacts are found and
+// resolved and the simulation layer integrates.
 
 #pragma once
 
@@ -8,16 +8,23 @@
 
 #include "poinsot/base/hash.h"
 #include "poinsot/base/stopwatch.h"
+#include "poinsot/simulation/diagnostics.h"
 #include "poinsot/simulation/simulation_layer.h"
 
 namespace poinsot {
 
 // What the layer knows of the last sub-step, and sums since the start.
 struct CollisionReport {
-  std::uint32_t contacts = 0;    // points with a pushing impulse
-  double max_penetration = 0;    // [m] at the start of the last sub-step
-  double contact_loss = 0;       // [J] taken out by contacts so far
-  double push_out_energy = 0;    // [J] added by the removal of penetration so far
+  std::uint32_t contacts = 0;  // points with a pushing impulse
+  double max_penetration = 0;  // [m] at the start of the last sub-step
+  double impact_loss = 0;      // [J] kinetic energy taken out by impacts so far
+  double push_out_energy = 0;  // [J] added by the removal of penetration so far
+};
+
+struct CollisionTimes {
+  Elapsed collision;   // finding contacts
+  Elapsed contact;     // resolving them
+  Elapsed simulation;  // integrating
 };
 
 class CollisionLayer {
@@ -34,26 +41,35 @@ class CollisionLayer {
   World& world() { return simulation_.world(); }
   const World& world() const { return simulation_.world(); }
   const SimulationLayer& simulation() const { return simulation_; }
-
   const CollisionReport& report() const { return report_; }
-  // Energy [J] and relative energy error since the start, as README.md section "Energy" defines it.
-  double energy() const;
-  double energy_error() const;
 
-  // Adds what a continuation depends on besides the world: warm-start impulses.
+  // Energy [J], and the relative energy error since the start [-]: what the energy changed by
+  // beyond the work of held wrenches, the work and loss at contacts and the push-out, over the
+  // energy scale.
+  double energy() const;
+  double energy_error();
+
+  // Adds what a continuation depends on besides the world.
   void hash_into(Hash64& hash) const;
 
-  const Elapsed& collision_elapsed() const;
-  const Elapsed& contact_elapsed() const;
+  // Time spent so far. CPU time is read once per frame and shared out as wall time is.
+  const CollisionTimes& times() const { return times_; }
 
  private:
-  struct Impl;  // contacts, pairs, solver; keeps collision headers out of the layers above
+  void advance_substep(double t_end);
+
+  struct Contacts;  // the set and its resolution; keeps geometry out of the layers above
   SimulationLayer simulation_;
+  std::unique_ptr<Contacts> contacts_;
+  double longest_step_;  // [s]
   CollisionReport report_;
-  std::unique_ptr<Impl> impl_;
+  EnergyScale energy_scale_;
+  double start_energy_;  // [J]
+  CollisionTimes times_;
 };
 
-// Pairs of bodies that overlap in the scene, as faults that name both and the depth.
+// Pairs of bodies that overlap by more than the scene's tolerance, as faults that name both and the
+// depth.
 std::vector<SceneFault> find_overlaps(const Scene& scene);
 
 }  // namespace poinsot

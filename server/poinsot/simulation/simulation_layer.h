@@ -4,11 +4,12 @@
 
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "poinsot/base/stopwatch.h"
 #include "poinsot/simulation/integrator.h"
+#include "poinsot/simulation/work_meter.h"
 #include "poinsot/simulation/world.h"
 
 namespace poinsot {
@@ -17,8 +18,9 @@ class SimulationLayer {
  public:
   explicit SimulationLayer(const Scene& scene);
 
-  // Afterwards world().time == t_end exactly. Columns that become non-finite are restored and
-  // frozen. Contact wrenches act until t_end and are zero afterwards.
+  // Afterwards world().time == t_end exactly. Contact wrenches act until t_end and are zero
+  // afterwards. A body whose state became non-finite is put back to where the last advance left it
+  // and frozen there.
   void advance_to(double t_end);
 
   World& world() { return world_; }
@@ -27,25 +29,19 @@ class SimulationLayer {
   // Wrench about c, in W, that contacts exert on each body until the next advance_to ends.
   std::span<Wrench> contact_wrenches() { return contact_wrenches_; }
 
-  // Bodies frozen so far.
-  std::uint32_t quarantined() const { return quarantined_; }
-  // Work done by held wrenches since the start [J], and by contact wrenches.
-  double held_work() const { return held_work_; }
-  double contact_work() const { return contact_work_; }
-  const Elapsed& elapsed() const { return elapsed_; }
+  std::uint32_t quarantined() const { return quarantined_; }  // bodies frozen so far
+  const WorkMeter& work() const { return work_; }
 
  private:
-  void restore_non_finite();
+  void freeze_unsound();
 
   World world_;
   Integrator integrator_;
   double longest_step_;  // [s]
   std::vector<Wrench> contact_wrenches_;
-  StateArray before_;  // 13×n at the start of the advance
-  double held_work_ = 0;
-  double contact_work_ = 0;
+  StateArray last_good_;  // 13×n, at the end of the last advance
+  WorkMeter work_;
   std::uint32_t quarantined_ = 0;
-  Elapsed elapsed_;
 };
 
 }  // namespace poinsot

@@ -1,8 +1,8 @@
 #include "poinsot/base/names.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
+
+#include <gtest/gtest.h>
 
 namespace poinsot {
 namespace {

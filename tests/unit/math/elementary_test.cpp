@@ -1,9 +1,9 @@
 #include "poinsot/math/elementary.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
+
+#include <gtest/gtest.h>
 
 namespace poinsot {
 namespace {

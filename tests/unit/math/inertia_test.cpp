@@ -1,8 +1,8 @@
 #include "poinsot/math/inertia.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
+
+#include <gtest/gtest.h>
 
 namespace poinsot {
 namespace {

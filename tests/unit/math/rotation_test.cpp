@@ -1,8 +1,8 @@
 #include "poinsot/math/rotation.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 namespace poinsot {
 namespace {

@@ -1,0 +1,82 @@
+// The keys of scene files, table by table: what is read, and what is known but comes later (and is
+// refused by name). README.md gives units and defaults.
+
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace poinsot {
+
+struct KeyTable {
+  std::string_view name;                    // as the user sees it
+  std::span<const std::string_view> keys;   // understood
+  std::span<const std::string_view> later;  // known, not supported yet
+};
+
+namespace scene_keys {
+
+using Words = std::string_view[];
+
+inline constexpr Words kSceneKeys = {"world",      "presentation",  "collision",
+                                     "simulation", "allow_overlap", "bodies"};
+inline constexpr Words kSceneLater = {"profile", "pairs", "springs", "wrenches"};
+inline constexpr Words kPresentationKeys = {"frame_rate"};
+inline constexpr Words kCollisionKeys = {"impact_search", "contact_solver", "contact_step",
+                                         "iterations",    "contact_margin", "push_out_speed"};
+inline constexpr Words kCollisionLater = {"contact_band", "max_impacts", "sleeping",
+                                          "sleep_acceleration", "threads"};
+inline constexpr Words kSimulationKeys = {"integrator", "step", "gravity"};
+inline constexpr Words kSimulationLater = {"tolerance"};
+inline constexpr Words kBodyKeys = {
+    "name",          "static",   "shape",       "shapes",          "density",          "mass",
+    "inertia",       "position", "orientation", "linear_velocity", "angular_velocity", "material",
+    "center_of_mass"};
+inline constexpr Words kBodyLater = {"kinematic", "surface_velocity", "drag"};
+inline constexpr Words kShapeKeys = {"sphere",   "box",         "capsule", "cylinder",
+                                     "cone",     "ellipsoid",   "convex",  "half_space",
+                                     "position", "orientation", "density"};
+inline constexpr Words kShapeLater = {"mesh"};
+inline constexpr Words kRoundKeys = {"radius", "length"};
+inline constexpr Words kConvexKeys = {"points"};
+inline constexpr Words kConvexLater = {"file"};
+inline constexpr Words kHalfSpaceKeys = {"normal", "offset"};
+inline constexpr Words kMaterialKeys = {"friction", "restitution"};
+inline constexpr Words kMaterialLater = {"static_friction"};
+inline constexpr Words kInertiaKeys = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
+inline constexpr Words kOrientationKeys = {"x", "y", "z", "w", "rpy"};
+
+}  // namespace scene_keys
+
+inline constexpr KeyTable kSceneTable = {"scene", scene_keys::kSceneKeys, scene_keys::kSceneLater};
+inline constexpr KeyTable kPresentationTable = {"presentation", scene_keys::kPresentationKeys, {}};
+inline constexpr KeyTable kCollisionTable = {"collision", scene_keys::kCollisionKeys,
+                                             scene_keys::kCollisionLater};
+inline constexpr KeyTable kSimulationTable = {"simulation", scene_keys::kSimulationKeys,
+                                              scene_keys::kSimulationLater};
+inline constexpr KeyTable kBodyTable = {"bodies[]", scene_keys::kBodyKeys, scene_keys::kBodyLater};
+inline constexpr KeyTable kShapeTable = {"shape", scene_keys::kShapeKeys, scene_keys::kShapeLater};
+inline constexpr KeyTable kRoundTable = {"capsule, cylinder, cone", scene_keys::kRoundKeys, {}};
+inline constexpr KeyTable kConvexTable = {"convex", scene_keys::kConvexKeys,
+                                          scene_keys::kConvexLater};
+inline constexpr KeyTable kHalfSpaceTable = {"half_space", scene_keys::kHalfSpaceKeys, {}};
+inline constexpr KeyTable kMaterialTable = {"material", scene_keys::kMaterialKeys,
+                                            scene_keys::kMaterialLater};
+inline constexpr KeyTable kInertiaTable = {"inertia", scene_keys::kInertiaKeys, {}};
+inline constexpr KeyTable kOrientationTable = {"orientation", scene_keys::kOrientationKeys, {}};
+
+// Where a misplaced key may belong, nearest to the top first.
+inline constexpr std::array<const KeyTable*, 8> kPlaces = {
+    &kSceneTable, &kPresentationTable, &kCollisionTable, &kSimulationTable,
+    &kBodyTable,  &kMaterialTable,     &kShapeTable,     &kInertiaTable};
+
+// Strategies of the plan that strategies.h does not have yet.
+inline constexpr std::string_view kIntegratorsLater[] = {"exact", "taylor", "dop853", "dopri5",
+                                                         "explicit_euler"};
+inline constexpr std::string_view kImpactSearchesLater[] = {"conservative", "backtracking",
+                                                            "continuous"};
+inline constexpr std::string_view kContactSolversLater[] = {"auto", "pairwise", "soft_step",
+                                                            "convex_newton"};
+
+}  // namespace poinsot

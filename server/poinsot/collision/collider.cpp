@@ -1,0 +1,203 @@
+#include "poinsot/collision/collider.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "poinsot/base/check.h"
+
+namespace poinsot {
+namespace {
+
+template <class... Fs>
+struct Overloaded : Fs... {
+  using Fs::operator()...;
+};
+
+Vec3 radial(const Vec3& d) {  // unit vector of d's part across z; x where there is none
+  const double r = std::sqrt(d.x() * d.x() + d.y() * d.y());
+  return r > 0 ? Vec3(d.x() / r, d.y() / r, 0) : Vec3(Vec3::UnitX());
+}
+
+double signed_half(double half, double component) {
+  return component < 0 ? -half : half;
+}
+
+Vec3 farthest(const std::vector<Vec3>& points, const Vec3& d) {
+  std::size_t best = 0;
+  double most = points[0].dot(d);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double along = points[i].dot(d);
+    if (along > most) {
+      most = along;
+      best = i;
+    }
+  }
+  return points[best];
+}
+
+double smallest_extent(const Shape& shape) {
+  return std::visit(
+      Overloaded{[](const Sphere& s) { return 2 * s.radius; },
+                 [](const Box& s) { return s.size.minCoeff(); },
+                 [](const Capsule& s) { return 2 * s.radius; },
+                 [](const Cylinder& s) { return std::min(2 * s.radius, s.length); },
+                 [](const Cone& s) { return std::min(2 * s.radius, s.length); },
+                 [](const Ellipsoid& s) { return 2 * s.semi_axes.minCoeff(); },
+                 [](const Convex& s) {
+                   double width = std::numeric_limits<double>::infinity();
+                   for (const Convex::Face& face : s.faces)
+                     width = std::min(
+                         width, face.offset - farthest(s.vertices, -face.normal).dot(face.normal));
+                   return width;
+                 },
+                 [](const HalfSpace&) { return std::numeric_limits<double>::infinity(); }},
+      shape);
+}
+
+double radius_of_core(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
+  return 0;
+}
+
+// Octagon in the circle of radius r at height z, counter-clockwise seen from outside (`up`: +z).
+Feature cap(double r, double z, bool up) {
+  constexpr double kHalfRoot = 0.70710678118654752440;
+  const double side = up ? r : -r;
+  const Vec3 x(r, 0, 0), y(0, side, 0), middle(0, 0, z);
+  Feature f;
+  for (const Vec3& p : {x, Vec3(kHalfRoot * (x + y)), y, Vec3(kHalfRoot * (y - x)), Vec3(-x),
+                        Vec3(kHalfRoot * (-x - y)), Vec3(-y), Vec3(kHalfRoot * (x - y))})
+    f.add(p + middle);
+  return f;
+}
+
+Feature segment(const Vec3& a, const Vec3& b, double round_a, double round_b) {
+  Feature f;
+  f.add(a);
+  f.add(b);
+  f.round = {round_a, round_b};
+  return f;
+}
+
+Feature point(const Vec3& p) {
+  Feature f;
+  f.add(p);
+  return f;
+}
+
+Feature box_face(const Vec3& half, const Vec3& d) {
+  Eigen::Index axis = 0;
+  d.cwiseAbs().maxCoeff(&axis);
+  const Eigen::Index u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const double side = d[axis] < 0 ? -1 : 1;
+  Feature f;
+  for (const auto& [s, t] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
+    Vec3 p;
+    p[axis] = side * half[axis];
+    p[u] = s * half[u];
+    p[v] = side * t * half[v];  // mirrored on the negative side: counter-clockwise from outside
+    f.add(p);
+  }
+  return f;
+}
+
+Feature convex_face(const Convex& convex, const Vec3& d) {
+  const Convex::Face* best = &convex.faces[0];
+  for (const Convex::Face& face : convex.faces)
+    if (face.normal.dot(d) > best->normal.dot(d)) best = &face;
+  Feature f;  // a face of more corners is thinned evenly
+  const std::size_t n = best->loop.size();
+  const std::size_t kept = std::min<std::size_t>(n, Feature::kMaxCorners);
+  for (std::size_t i = 0; i < kept; ++i)
+    f.add(convex.vertices[static_cast<std::size_t>(best->loop[i * n / kept])]);
+  return f;
+}
+
+}  // namespace
+
+Collider::Collider(Eigen::Index body_, const Shape& shape_, const Pose& in_body_)
+    : body(body_),
+      shape(shape_),
+      in_body(in_body_),
+      core_radius(radius_of_core(shape)),
+      bounding_radius(poinsot::bounding_radius(shape)),
+      size(smallest_extent(shape)) {}
+
+Vec3 support(const Collider& collider, const Vec3& d) {
+  return std::visit(Overloaded{[](const Sphere&) -> Vec3 { return Vec3::Zero(); },
+                               [&](const Box& s) -> Vec3 {
+                                 return {signed_half(0.5 * s.size.x(), d.x()),
+                                         signed_half(0.5 * s.size.y(), d.y()),
+                                         signed_half(0.5 * s.size.z(), d.z())};
+                               },
+                               [&](const Capsule& s) -> Vec3 {
+                                 return {0, 0, signed_half(0.5 * s.length, d.z())};
+                               },
+                               [&](const Cylinder& s) -> Vec3 {
+                                 return s.radius * radial(d) +
+                                        Vec3(0, 0, signed_half(0.5 * s.length, d.z()));
+                               },
+                               [&](const Cone& s) -> Vec3 {
+                                 const Vec3 apex(0, 0, 0.5 * s.length);
+                                 const Vec3 rim = s.radius * radial(d) - apex;
+                                 return apex.dot(d) > rim.dot(d) ? apex : rim;
+                               },
+                               [&](const Ellipsoid& s) -> Vec3 {
+                                 const Vec3 scaled = s.semi_axes.cwiseProduct(d);
+                                 const double length = scaled.norm();
+                                 return length > 0 ? Vec3(s.semi_axes.cwiseProduct(scaled) / length)
+                                                   : Vec3(s.semi_axes.x(), 0, 0);
+                               },
+                               [&](const Convex& s) -> Vec3 { return farthest(s.vertices, d); },
+                               [](const HalfSpace&) -> Vec3 {
+                                 POINSOT_CHECK(!"a half-space has no support");
+                                 return Vec3::Zero();
+                               }},
+                    collider.shape);
+}
+
+Aabb bounds(const Collider& collider, const Pose& pose) {
+  const Mat3 R = pose.q.toRotationMatrix();
+  if (const auto* box = std::get_if<Box>(&collider.shape)) {
+    const Vec3 reach = R.cwiseAbs() * (0.5 * box->size);
+    return {pose.c - reach, pose.c + reach};
+  }
+  Aabb aabb;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Vec3 d = R.row(axis);
+    aabb.low[axis] = pose.c[axis] + support(collider, -d).dot(d) - collider.core_radius;
+    aabb.high[axis] = pose.c[axis] + support(collider, d).dot(d) + collider.core_radius;
+  }
+  return aabb;
+}
+
+Feature support_feature(const Collider& collider, const Vec3& d) {
+  constexpr double kCap = 0.70710678118654752440;  // nearer the axis than 45°: a cap, else a side
+  return std::visit(
+      Overloaded{[](const Sphere&) { return point(Vec3::Zero()); },
+                 [&](const Box& s) { return box_face(0.5 * s.size, d); },
+                 [](const Capsule& s) {
+                   return segment({0, 0, -0.5 * s.length}, {0, 0, 0.5 * s.length}, 0, 0);
+                 },
+                 [&](const Cylinder& s) {
+                   const double z = 0.5 * s.length;
+                   if (std::abs(d.z()) > kCap)
+                     return cap(s.radius, signed_half(z, d.z()), d.z() > 0);
+                   const Vec3 side = s.radius * radial(d);
+                   return segment(side - Vec3(0, 0, z), side + Vec3(0, 0, z), s.radius, s.radius);
+                 },
+                 [&](const Cone& s) {
+                   const Vec3 apex(0, 0, 0.5 * s.length);
+                   if (d.z() < -kCap) return cap(s.radius, -apex.z(), false);
+                   const double slope = s.radius / s.length;
+                   return segment(s.radius * radial(d) - apex, apex,
+                                  s.radius * std::sqrt(1 + slope * slope), 0);
+                 },
+                 [&](const Ellipsoid&) { return point(support(collider, d)); },
+                 [&](const Convex& s) { return convex_face(s, d); },
+                 [](const HalfSpace&) { return Feature{}; }},
+      collider.shape);
+}
+
+}  // namespace poinsot

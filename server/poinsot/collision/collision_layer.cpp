@@ -1,0 +1,114 @@
+#include "poinsot/collision/collision_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "poinsot/collision/contact_resolution.h"
+#include "poinsot/collision/contact_set.h"
+
+namespace poinsot {
+namespace {
+
+// Shares the CPU time of a frame among the layers as they shared its wall time: reading the CPU clock
+// takes a system call, too dear for every sub-step.
+class FrameTimes {
+ public:
+  explicit FrameTimes(CollisionTimes& times)
+      : times_(times), before_(times), start_(Stopwatch::now()) {}
+  ~FrameTimes() {
+    const double cpu = Stopwatch::now().cpu_s - start_.cpu_s;
+    const double wall = wall_of(times_) - wall_of(before_);
+    if (wall <= 0) return;
+    const auto share = [&](Elapsed& now, const Elapsed& before) {
+      now.cpu_s += cpu * (now.wall_s - before.wall_s) / wall;
+    };
+    share(times_.collision, before_.collision);
+    share(times_.contact, before_.contact);
+    share(times_.simulation, before_.simulation);
+  }
+  FrameTimes(const FrameTimes&) = delete;
+  FrameTimes& operator=(const FrameTimes&) = delete;
+
+ private:
+  static double wall_of(const CollisionTimes& t) {
+    return t.collision.wall_s + t.contact.wall_s + t.simulation.wall_s;
+  }
+
+  CollisionTimes& times_;
+  CollisionTimes before_;
+  Elapsed start_;
+};
+
+}  // namespace
+
+struct CollisionLayer::Contacts {
+  ContactSet set;
+  ContactResolution resolution;
+};
+
+CollisionLayer::CollisionLayer(const Scene& scene)
+    : simulation_(scene),
+      contacts_(
+          new Contacts{ContactSet(scene, simulation_.world()), ContactResolution(scene.collision)}),
+      longest_step_(scene.collision.contact_step),
+      energy_scale_(simulation_.world()),
+      start_energy_(energy()) {}
+
+CollisionLayer::~CollisionLayer() = default;
+CollisionLayer::CollisionLayer(CollisionLayer&&) noexcept = default;
+CollisionLayer& CollisionLayer::operator=(CollisionLayer&&) noexcept = default;
+
+void CollisionLayer::advance_to(double t_end) {
+  const FrameTimes frame_times(times_);
+  const double t_start = time();
+  const int steps = step_count(t_end - t_start, longest_step_);
+  for (int k = 1; k < steps; ++k) advance_substep(t_start + k * ((t_end - t_start) / steps));
+  advance_substep(t_end);
+}
+
+void CollisionLayer::advance_substep(double t_end) {
+  const double h = t_end - time();
+  auto& [set, resolution] = *contacts_;
+  {
+    const Stopwatch::WallLap lap(times_.collision.wall_s);
+    set.find(world(), h);
+  }
+  {
+    const Stopwatch::WallLap lap(times_.contact.wall_s);
+    report_.push_out_energy += resolution.push_out(world(), set, h);
+    report_.impact_loss += resolution.resolve_impacts(world(), set, h);
+    resolution.resolve_contacts(simulation_, set, h);
+  }
+  {
+    const Stopwatch::WallLap lap(times_.simulation.wall_s);
+    simulation_.advance_to(t_end);
+  }
+
+  report_.contacts = 0;
+  report_.max_penetration = 0;
+  for (const Contact& contact : std::as_const(set).contacts()) {
+    report_.contacts += contact.normal_impulse > 0 ? 1 : 0;
+    report_.max_penetration = std::max(report_.max_penetration, -contact.gap);
+  }
+}
+
+double CollisionLayer::energy() const {
+  return kinetic_energy(world()) + potential_energy(world());
+}
+
+double CollisionLayer::energy_error() {
+  const double kinetic = kinetic_energy(world());
+  energy_scale_.see(kinetic);
+  const WorkMeter& work = simulation_.work();
+  const double expected =
+      start_energy_ + work.held() + work.contact() - report_.impact_loss + report_.push_out_energy;
+  const double scale = energy_scale_.value();
+  return scale > 0 ? (kinetic + potential_energy(world()) - expected) / scale : 0;
+}
+
+void CollisionLayer::hash_into(Hash64& hash) const {
+  contacts_->set.hash_into(hash);
+}
+
+}  // namespace poinsot

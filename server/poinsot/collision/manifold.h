@@ -1,0 +1,69 @@
+// Where two shapes touch or nearly touch: a plane and up to four points.
+//
+// Gaps are signed distances along the normal: positive apart, negative penetrating. Points nearer
+// than the margin are kept, not only penetrating ones, so that a manifold does not flicker when a
+// face tilts by 1e-3 rad. Points lie midway between the two surfaces.
+
+#pragma once
+
+#include <array>
+
+#include "poinsot/collision/collider.h"
+#include "poinsot/collision/gjk.h"
+
+namespace poinsot {
+
+struct ManifoldPoint {
+  Vec3 point;      // [m]
+  double gap = 0;  // [m]
+};
+
+struct Manifold {
+  static constexpr int kMaxPoints = 4;
+
+  Vec3 normal = Vec3::UnitZ();  // unit, from B to A
+  std::array<ManifoldPoint, kMaxPoints> points;
+  int count = 0;
+
+  void clear() { count = 0; }
+};
+
+// Where a query found the cores nearest or deepest, in A's frame.
+struct Witness {
+  Vec3 normal;      // unit, from B to A
+  Vec3 on_a, on_b;  // [m] on the cores
+  double gap = 0;   // [m] of the shapes: radii taken off
+};
+
+// The manifold about a witness, in A's frame: the features of both cores that face each other are
+// clipped against one another. A pair without facing features, such as crossed edges, keeps the
+// witness alone. The least gap is the witness's, or above it by less than kSameGap of the smaller
+// body.
+// Source: support-face clipping (Sutherland and Hodgman 1974).
+void build_manifold(const ConvexPair& pair, const Witness& witness, double margin,
+                    Manifold& manifold);
+
+inline constexpr double kSameGap = 1e-7;  // [-] of the smaller body: gaps that count as equal
+
+// Candidates for a manifold, reduced to the four that span it best: the deepest, the farthest from
+// it, the one that spans the largest triangle with both, and the farthest beyond that triangle. Of
+// points equally deep to within `same_gap` [m] the first is the deepest, so that the choice does
+// not jump with the last bits of a resting body.
+class PointSet {
+ public:
+  static constexpr int kCapacity = 40;
+
+  explicit PointSet(double same_gap) : same_gap_(same_gap) {}
+
+  void add(const Vec3& point, double gap);  // when full, the shallowest gives way
+  int count() const { return count_; }
+  double least_gap() const;
+  void reduce_into(const Vec3& normal, Manifold& manifold) const;
+
+ private:
+  std::array<ManifoldPoint, static_cast<std::size_t>(kCapacity)> points_;
+  int count_ = 0;
+  double same_gap_;
+};
+
+}  // namespace poinsot

@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "poinsot/collision/broad_phase.h"
+#include "poinsot/collision/collision_layer.h"
+#include "poinsot/collision/contact_set.h"
+#include "poinsot/collision/proximity.h"
+
+namespace poinsot {
+namespace {
+
+std::string depth_in_words(double depth) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g m", depth);
+  return text;
+}
+
+}  // namespace
+
+std::vector<SceneFault> find_overlaps(const Scene& scene) {
+  const std::vector<Collider> colliders = make_colliders(scene);
+  std::vector<bool> moves;
+  std::vector<Pose> poses;
+  std::vector<Aabb> boxes(colliders.size());
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    const BodyDef& body = scene.bodies[static_cast<std::size_t>(colliders[i].body)];
+    moves.push_back(!body.is_static);
+    const Pose of_center{body.pose * body.mass_properties.center_of_mass, body.pose.q};
+    poses.push_back(of_center * colliders[i].in_body);
+    if (!std::isinf(colliders[i].size)) boxes[i] = bounds(colliders[i], poses[i]);
+  }
+
+  std::vector<SceneFault> faults;
+  BroadPhase broad_phase(colliders, moves);
+  const std::vector<double> reach(colliders.size(), 0.0);
+  for (const auto& [i, j] : broad_phase.pairs(boxes, reach)) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const double depth = -find_gap(colliders[a], poses[a], colliders[b], poses[b]).value;
+    if (depth <= scene.collision.overlap * std::min(colliders[a].size, colliders[b].size)) continue;
+    const BodyDef& first = scene.bodies[static_cast<std::size_t>(colliders[a].body)];
+    const BodyDef& second = scene.bodies[static_cast<std::size_t>(colliders[b].body)];
+    faults.push_back({second.where,
+                      "body '" + second.name + "' overlaps '" + first.name + "' by " +
+                          depth_in_words(depth) + "; move it, or set allow_overlap: true",
+                      "bodies[" + std::to_string(colliders[b].body) + "]"});
+  }
+  return faults;
+}
+
+}  // namespace poinsot

@@ -1,0 +1,109 @@
+#include "poinsot/collision/proximity.h"
+
+#include <limits>
+
+#include "poinsot/base/check.h"
+#include "poinsot/collision/box_box.h"
+#include "poinsot/collision/epa.h"
+#include "poinsot/collision/half_space.h"
+#include "poinsot/collision/pair_table.h"
+#include "poinsot/collision/proximity_fcl.h"
+
+namespace poinsot {
+namespace {
+
+char kernel(const Collider& a, const Collider& b) {
+  return kPairTable[a.shape.index()][b.shape.index()];
+}
+
+// The order in which a pair is computed, whichever way it is asked for.
+bool is_swapped(const Collider& a, const Collider& b) {
+  return a.shape.index() > b.shape.index() ||
+         (a.shape.index() == b.shape.index() && a.body > b.body);
+}
+
+// Of the shapes, from gjk or, where the cores touch, from the penetration search.
+struct CoreQuery {
+  Witness witness;  // gap: upper bound
+  double lower;     // [m] of the gap
+};
+
+CoreQuery query_cores(const ConvexPair& pair,
+                      double enough = std::numeric_limits<double>::infinity()) {
+  const double radii = pair.a.core_radius + pair.b.core_radius;
+  const GjkResult near = gjk(pair, enough + radii);
+  if (near.separated)
+    return {{near.normal, near.on_a, near.on_b, near.distance - radii}, near.lower - radii};
+  const Penetration deep = penetration(pair, near);
+  // The depth is bounded from above: the gap from below.
+  return {{deep.normal, deep.on_a, deep.on_b, -deep.lower - radii}, -deep.depth - radii};
+}
+
+// Beyond the margin the search may stop with coarse bounds: the manifold is empty either way.
+void general_manifold(const ConvexPair& pair, double margin, Manifold& manifold) {
+  const CoreQuery query = query_cores(pair, margin);
+  manifold.clear();
+  if (query.lower <= margin) build_manifold(pair, query.witness, margin, manifold);
+}
+
+void to_world(const Pose& pose_a, Manifold& manifold) {
+  manifold.normal = pose_a.q * manifold.normal;
+  for (int i = 0; i < manifold.count; ++i) {
+    Vec3& point = manifold.points[static_cast<std::size_t>(i)].point;
+    point = pose_a * point;
+  }
+}
+
+// The plane of half-space `b` seen from the frame of shape `a`.
+struct LocalPlane {
+  Vec3 normal;
+  double offset;
+  LocalPlane(const Pose& pose_a, const HalfSpace& plane, const Pose& pose_b) {
+    const Vec3 normal_W = pose_b.q * plane.normal;
+    normal = pose_a.q.conjugate() * normal_W;
+    offset = plane.offset + normal_W.dot(pose_b.c - pose_a.c);
+  }
+};
+
+}  // namespace
+
+void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                   double margin, Manifold& manifold) {
+  if (is_swapped(a, b)) {
+    find_manifold(b, pose_b, a, pose_a, margin, manifold);
+    manifold.normal = -manifold.normal;
+    return;
+  }
+  switch (kernel(a, b)) {
+    case 'F':
+      return sphere_contact_fcl(a, pose_a, b, pose_b, margin, manifold);
+    case 'B': {
+      const ConvexPair pair(a, pose_a, b, pose_b);
+      if (!box_box(pair, margin, manifold)) general_manifold(pair, margin, manifold);
+      return to_world(pose_a, manifold);
+    }
+    case 'G':
+      general_manifold({a, pose_a, b, pose_b}, margin, manifold);
+      return to_world(pose_a, manifold);
+    case 'H': {
+      const LocalPlane plane(pose_a, std::get<HalfSpace>(b.shape), pose_b);
+      shape_on_half_space(a, plane.normal, plane.offset, margin, manifold);
+      return to_world(pose_a, manifold);
+    }
+    default:
+      POINSOT_CHECK(!"this pair never meets");
+  }
+}
+
+Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b) {
+  if (is_swapped(a, b)) return find_gap(b, pose_b, a, pose_a);
+  if (kernel(a, b) == 'H') {
+    const LocalPlane plane(pose_a, std::get<HalfSpace>(b.shape), pose_b);
+    const double gap = plane.normal.dot(support(a, -plane.normal)) - plane.offset - a.core_radius;
+    return {gap, gap};
+  }
+  const CoreQuery query = query_cores({a, pose_a, b, pose_b});
+  return {query.witness.gap, query.lower};
+}
+
+}  // namespace poinsot

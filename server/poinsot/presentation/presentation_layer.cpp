@@ -1,0 +1,76 @@
+#include "poinsot/presentation/presentation_layer.h"
+
+#include <cmath>
+#include <utility>
+
+#include "poinsot/presentation/state_hash.h"
+
+namespace poinsot {
+
+PresentationLayer::PresentationLayer(Scene scene)
+    : scene_(std::move(scene)), collision_(scene_), held_(frame_rate()) {
+  for (Eigen::Index i = 0; i < world().size(); ++i)
+    if (world().moves(i)) columns_.push_back(i);
+  snapshot_.bodies.resize(columns_.size());
+  capture();
+}
+
+void PresentationLayer::accept(std::span<const WrenchCommand> commands,
+                               std::vector<Reply>& replies) {
+  if (commands.empty()) return;
+  const Stopwatch::Lap lap(times_.presentation);
+  held_.accept(commands, world(), frame_ + 1, epoch_, replies);
+}
+
+void PresentationLayer::advance_frame() {
+  ++frame_;
+  held_.apply_to(collision_.world(), frame_);
+  collision_.advance_to(static_cast<double>(frame_) / frame_rate());  // all physics is in here
+  capture();
+}
+
+void PresentationLayer::reset() {
+  times_ = times();
+  collision_ = CollisionLayer(scene_);
+  held_ = HeldWrenches(frame_rate());
+  frame_ = 0;
+  ++epoch_;
+  capture();
+}
+
+void PresentationLayer::capture() {
+  const Stopwatch::Lap lap(times_.presentation);
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const Eigen::Index i = columns_[k];
+    const Pose pose = body_pose(world(), i);
+    snapshot_.bodies[k] = {world().ids[static_cast<std::size_t>(i)], pose.c, pose.q,
+                           linear_velocity(world(), i), angular_velocity(world(), i)};
+  }
+  snapshot_.epoch = epoch_;
+  snapshot_.frame = frame_;
+  snapshot_.sim_time_ns = std::llround(static_cast<double>(frame_) * 1e9 / frame_rate());
+  snapshot_.state_hash = state_hash(frame_, collision_, held_);
+
+  const CollisionReport& collision = collision_.report();
+  const std::uint32_t quarantined = collision_.simulation().quarantined();
+  report_ = {.frame = frame_,
+             .sim_time = time(),
+             .bodies = static_cast<std::uint32_t>(columns_.size()),
+             .contacts = collision.contacts,
+             .quarantined = quarantined,
+             .energy = collision_.energy(),
+             .energy_error = collision_.energy_error(),
+             .push_out_energy = collision.push_out_energy,
+             .max_penetration = collision.max_penetration,
+             .flags = quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none};
+}
+
+LayerTimes PresentationLayer::times() const {
+  LayerTimes times = times_;
+  times.collision += collision_.times().collision;
+  times.contact += collision_.times().contact;
+  times.simulation += collision_.times().simulation;
+  return times;
+}
+
+}  // namespace poinsot

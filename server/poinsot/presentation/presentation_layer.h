@@ -1,0 +1,60 @@
+// The presentation layer: the run as the outside sees it, in fixed frames. Commands enter and poses
+// leave only between frames; frame n ends at exactly n / frame_rate.
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "poinsot/base/stopwatch.h"
+#include "poinsot/collision/collision_layer.h"
+#include "poinsot/presentation/held_wrenches.h"
+#include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/pose_snapshot.h"
+
+namespace poinsot {
+
+class PresentationLayer {
+ public:
+  // The scene must be valid (validate()).
+  explicit PresentationLayer(Scene scene);
+
+  // Takes commands for the frames to come, paused or not. Appends one reply per command, in order.
+  // The commands are sorted by (client, seq).
+  void accept(std::span<const WrenchCommand> commands, std::vector<Reply>& replies);
+
+  // Advances to the end of the next frame.
+  void advance_frame();
+
+  // Back to frame 0 of the scene, in the next epoch, with the hashes of a fresh start.
+  void reset();
+
+  std::uint64_t frame() const { return frame_; }  // the last one advanced; 0: the initial state
+  std::uint32_t epoch() const { return epoch_; }  // from 1, grows with each reset
+  double frame_rate() const { return scene_.presentation.frame_rate; }  // [Hz]
+  double time() const { return collision_.time(); }                     // [s] frame / frame_rate
+  const Scene& scene() const { return scene_; }
+  const World& world() const { return collision_.world(); }
+
+  // The dynamic bodies at the end of the last frame, with its hash. session and publish_time_ns are
+  // left to whoever sends it.
+  const PoseSnapshot& snapshot() const { return snapshot_; }
+  const FrameReport& report() const { return report_; }
+  LayerTimes times() const;  // since construction, over all epochs
+
+ private:
+  void capture();
+
+  Scene scene_;
+  CollisionLayer collision_;
+  HeldWrenches held_;
+  std::uint64_t frame_ = 0;
+  std::uint32_t epoch_ = 1;
+  PoseSnapshot snapshot_;
+  FrameReport report_;
+  std::vector<Eigen::Index> columns_;  // of the snapshot's bodies
+  LayerTimes times_;                   // own time, and the inner layers' before the last reset
+};
+
+}  // namespace poinsot

@@ -1,0 +1,61 @@
+#include "poinsot/runner/run_summary.h"
+
+#include <cstdio>
+
+namespace poinsot {
+namespace {
+
+// printf into a string; the formats below are far shorter than the buffer.
+template <class... Values>
+std::string print(const char* format, Values... values) {
+  char buffer[512];
+  std::snprintf(buffer, sizeof buffer, format, values...);
+  return buffer;
+}
+
+}  // namespace
+
+RunSummary summarize(const PresentationLayer& layer, std::uint64_t frames, double wall_s,
+                     const Elapsed& publishing) {
+  const FrameReport report = layer.report();
+  RunSummary summary;
+  summary.frames = frames;
+  summary.sim_time = static_cast<double>(frames) / layer.frame_rate();
+  summary.wall_s = wall_s;
+  summary.times = layer.times();
+  summary.times.publishing = publishing;
+  summary.bodies = report.bodies;
+  summary.energy_error = report.energy_error;
+  summary.state_hash = layer.snapshot().state_hash;
+  return summary;
+}
+
+std::string to_text(const RunSummary& s) {
+  const LayerTimes& t = s.times;
+  std::string text;
+  text += print("frames        %llu\n", static_cast<unsigned long long>(s.frames));
+  text += print("simulated     %.6g s\n", s.sim_time);
+  text += print("wall          %.6g s (real-time factor %.4g)\n", s.wall_s,
+                s.wall_s > 0 ? s.sim_time / s.wall_s : 0.0);
+  text += print("cpu           presentation %.4g s, collision %.4g s, contact %.4g s,\n",
+                t.presentation.cpu_s, t.collision.cpu_s, t.contact.cpu_s);
+  text += print("              simulation %.4g s, publishing %.4g s\n", t.simulation.cpu_s,
+                t.publishing.cpu_s);
+  text += print("bodies        %u\n", s.bodies);
+  text += print("energy error  %.3g\n", s.energy_error);
+  text += print("state hash    %016llx\n", static_cast<unsigned long long>(s.state_hash));
+  return text;
+}
+
+std::string to_json(const RunSummary& s) {
+  const LayerTimes& t = s.times;
+  return print(
+      "{\"frames\": %llu, \"sim_time\": %.17g, \"wall_s\": %.9g, \"cpu_s\": {\"presentation\": "
+      "%.9g, \"collision\": %.9g, \"contact\": %.9g, \"simulation\": %.9g, \"publishing\": %.9g}, "
+      "\"bodies\": %u, \"state_hash\": \"%016llx\"}\n",
+      static_cast<unsigned long long>(s.frames), s.sim_time, s.wall_s, t.presentation.cpu_s,
+      t.collision.cpu_s, t.contact.cpu_s, t.simulation.cpu_s, t.publishing.cpu_s, s.bodies,
+      static_cast<unsigned long long>(s.state_hash));
+}
+
+}  // namespace poinsot

@@ -1,0 +1,28 @@
+// Energy of a world and its scale. The work of wrenches is in work_meter.h.
+// README.md, section "Energy", defines the balance.
+
+#pragma once
+
+#include "poinsot/simulation/world.h"
+
+namespace poinsot {
+
+double kinetic_energy(const World& world);    // [J] ½ P²/m + ½ ω·L over the bodies that move
+double potential_energy(const World& world);  // [J] −m g·c over the bodies that move
+
+// Scale for the relative energy error [J]: Σ m |g| (height above the lowest body + radius of
+// gyration) at the start, plus the largest kinetic energy seen.
+class EnergyScale {
+ public:
+  explicit EnergyScale(const World& world);
+  void see(double kinetic) {
+    largest_kinetic_ = kinetic > largest_kinetic_ ? kinetic : largest_kinetic_;
+  }
+  double value() const { return potential_ + largest_kinetic_; }
+
+ private:
+  double potential_ = 0;
+  double largest_kinetic_ = 0;
+};
+
+}  // namespace poinsot

@@ -1,0 +1,43 @@
+#include "poinsot/runner/run_summary.h"
+
+#include <gtest/gtest.h>
+
+namespace poinsot {
+namespace {
+
+RunSummary example() {
+  RunSummary s;
+  s.frames = 600;
+  s.sim_time = 10;
+  s.wall_s = 0.25;
+  s.times.presentation.cpu_s = 0.5;
+  s.times.collision.cpu_s = 1;
+  s.times.contact.cpu_s = 2;
+  s.times.simulation.cpu_s = 4;
+  s.times.publishing.cpu_s = 8;
+  s.bodies = 12;
+  s.energy_error = 1.5e-6;
+  s.state_hash = 0xabcdef;
+  return s;
+}
+
+TEST(RunSummary, JsonIsOneLineWithTheHashInSixteenDigits) {
+  EXPECT_EQ(to_json(example()),
+            "{\"frames\": 600, \"sim_time\": 10, \"wall_s\": 0.25, \"cpu_s\": {\"presentation\": "
+            "0.5, \"collision\": 1, \"contact\": 2, \"simulation\": 4, \"publishing\": 8}, "
+            "\"bodies\": 12, \"state_hash\": \"0000000000abcdef\"}\n");
+}
+
+TEST(RunSummary, TextNamesEveryFigure) {
+  const std::string text = to_text(example());
+  for (const char* part : {"600", "10 s", "0.25 s", "factor 40", "presentation 0.5 s",
+                           "publishing 8 s", "12", "1.5e-06", "0000000000abcdef"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(RunSummary, AnEmptyRunHasNoInfiniteFactor) {
+  EXPECT_NE(to_text({}).find("real-time factor 0)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace poinsot
