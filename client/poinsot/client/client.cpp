@@ -126,7 +126,7 @@ struct Client::Impl {
     const std::vector<std::string> worlds = participant.worlds();
     if (worlds.size() > 1)
       throw SeveralWorlds("several worlds on domain " + std::to_string(options.domain) +
-                     ", name one of them: " + joined(worlds));
+                          ", name one of them: " + joined(worlds));
     if (!worlds.empty()) open(worlds.front());
   }
 
