@@ -63,9 +63,7 @@ void route_to(const Logger& logger) {
 std::string invitation(const Scene& scene, const DaemonOptions& options) {
   const auto body = body_to_push(scene.bodies);
   const std::string client = "  " + shell_word(options.client);
-  std::string text = "In another terminal:
-" + client + " watch" + address(options) + "
-";
+  std::string text = "In another terminal:\n" + client + " watch" + address(options) + "\n";
   if (body == scene.bodies.end()) return text;
   char force[32];
   std::snprintf(force, sizeof force, "%g",
