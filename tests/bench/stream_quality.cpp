@@ -53,9 +53,7 @@ void print(const char* what, std::vector<double> values) {  // [ns]
   std::printf("%-38s p50 %9.1f  p99 %9.1f  max %9.1f µs\n", what, at(0.5), at(0.99), at(1));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int measure(int argc, char** argv) {
   const Options options = read(argc, argv);
   poinsot::Client client({.world = options.world, .domain = options.domain});
   client.wait_for_server(5s);
@@ -83,12 +81,23 @@ int main(int argc, char** argv) {
     last_published = poses.publish_time_ns;
   }
   const poinsot::RunReport report = client.report(5s);
-  std::printf("frames received %zu of %zu, gaps %llu (%llu frames), late frames of the daemon %llu\n",
-              frames, options.frames, static_cast<unsigned long long>(gaps),
-              static_cast<unsigned long long>(missing),
-              static_cast<unsigned long long>(report.overruns));
+  std::printf(
+      "frames received %zu of %zu, gaps %llu (%llu frames), late frames of the daemon %llu\n",
+      frames, options.frames, static_cast<unsigned long long>(gaps),
+      static_cast<unsigned long long>(missing), static_cast<unsigned long long>(report.overruns));
   print("|interval received − period|", received_error);
   print("|interval published − period|", published_error);
   print("published to received", latency);
   return frames == options.frames && gaps == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return measure(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }

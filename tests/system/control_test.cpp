@@ -63,7 +63,7 @@ TEST(Control, PauseStopsTheFramesAndResumeGoesOn) {
     ASSERT_EQ(next, seen + 1);
     seen = next;
   }
-  EXPECT_EQ(client_json({"status"})["state"], "running");
+  EXPECT_EQ(client_json({"status"})["state"], "playing");
 }
 
 }  // namespace

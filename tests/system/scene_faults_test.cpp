@@ -65,7 +65,7 @@ constexpr Fault kFaults[] = {
     {"Restitution", 2, "restitution",
      "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1, material: {restitution: 1.5}}\n"},
     {"FrameRate", 1, "frame_rate", "presentation: {frame_rate: 0}\nbodies: []\n"},
-    {"Syntax", 2, "", "bodies:\n  - {name: a, shape: {sphere: 1}\n"},
+    {"Syntax", 3, "", "bodies:\n  - {name: a, shape: {sphere: 1}\n"},
 };
 
 class SceneFaults : public testing::TestWithParam<Fault> {};
