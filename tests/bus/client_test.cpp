@@ -155,13 +155,13 @@ TEST(ClientTest, ListsTheWorldsIfThereAreSeveral) {
   Client wrong(on_test_domain("three"));
   EXPECT_EQ(text_of_no_answer([&] { wrong.wait_for_server(500ms); }),
             "world 'three' not found on domain " + std::to_string(test_domain()) +
-                " within 0.5 s; there is: one, two");
+                "; there is: one, two");
 }
 
 TEST(ClientTest, SaysThatNobodyIsThere) {
   Client client(on_test_domain(""));
   EXPECT_EQ(text_of_no_answer([&] { client.wait_for_server(300ms); }),
-            "no daemon found on domain " + std::to_string(test_domain()) + " within 0.3 s");
+            "no daemon found on domain " + std::to_string(test_domain()));
 }
 
 TEST(ClientTest, ReadsFramesInOrderAndTheNewestAtOnce) {

@@ -62,12 +62,13 @@ void route_to(const Logger& logger) {
 
 std::string invitation(const Scene& scene, const DaemonOptions& options) {
   const auto body = body_to_push(scene.bodies);
-  std::string text = "In another terminal:\n  poinsot watch" + address(options) + "\n";
+  const std::string client = "  " + shell_word(options.client);
+  std::string text = "In another terminal:\n" + client + " watch" + address(options) + "\n";
   if (body == scene.bodies.end()) return text;
   char force[32];
   std::snprintf(force, sizeof force, "%g",
                 round_to_two_digits(1.5 * kWeight * body->mass_properties.mass));
-  return text + "  poinsot push " + shell_word(body->name) + " --force 0,0," + force +
+  return text + client + " push " + shell_word(body->name) + " --force 0,0," + force +
          " --for 0.5s" + address(options) + "\n";
 }
 
