@@ -57,6 +57,12 @@ dds::DataWriter* foreign_writer(Participant& participant, const std::string& wor
   return core.publisher()->create_datawriter(topic, qos);
 }
 
+bool is_matched(dds::DataWriter* writer) {
+  dds::PublicationMatchedStatus status;
+  writer->get_publication_matched_status(status);
+  return status.current_count == 1;
+}
+
 TEST(Malformed, CommandsAreReportedWithTheirIdentityAndTheStreamGoesOn) {
   Participant here({.domain = test_domain()});
   Participant there({.domain = test_domain()});
@@ -64,7 +70,7 @@ TEST(Malformed, CommandsAreReportedWithTheirIdentityAndTheStreamGoesOn) {
   auto* writer = foreign_writer<WrenchCommand>(
       there, "malformed", dds::TypeSupport(new MessageType<WrenchCommand>::Support));
   ASSERT_NE(writer, nullptr);
-  ASSERT_TRUE(eventually([&] { return subscriber.writers() == 1; }));
+  ASSERT_TRUE(eventually([&] { return subscriber.writers() == 1 && is_matched(writer); }));
 
   msg::v1::BodyWrench command;
   ASSERT_EQ(to_message(sample::wrench(), command), "");
@@ -97,7 +103,8 @@ TEST(Malformed, BytesThatAreNoMessageDoNotStopTheStream) {
                                                dds::TypeSupport(new RawType(type.getName())));
   ASSERT_NE(writer, nullptr);
   Publisher<WrenchCommand> publisher(honest, "bytes");
-  ASSERT_TRUE(eventually([&] { return subscriber.writers() == 2 && publisher.readers() == 1; }));
+  ASSERT_TRUE(eventually(
+      [&] { return subscriber.writers() == 2 && publisher.readers() == 1 && is_matched(writer); }));
 
   // CDR little-endian header, then: nothing; a little; a string of 4 GB where the name is due.
   std::vector<unsigned char> truncated = {0, 1, 0, 0};

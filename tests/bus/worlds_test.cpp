@@ -26,7 +26,10 @@ TEST(Worlds, OnOneDomainDoNotMix) {
   Subscriber<WrenchCommand> wrench_b(here, "b");
   Subscriber<PoseSnapshot> reader_a(there, "a");
   Publisher<WrenchCommand> writer_a(there, "a");
-  ASSERT_TRUE(eventually([&] { return poses_a.readers() == 1 && wrench_a.writers() == 1; }));
+  ASSERT_TRUE(eventually([&] {
+    return poses_a.readers() == 1 && reader_a.writers() == 1 && wrench_a.writers() == 1 &&
+           writer_a.readers() == 1;
+  }));
   EXPECT_EQ(poses_b.readers(), 0);
   EXPECT_EQ(wrench_b.writers(), 0);
 

@@ -19,8 +19,9 @@ using namespace std::chrono_literals;
 
 constexpr auto kResendAfter = 250ms;
 constexpr auto kPoll = 2ms;
-// Daemons that run are discovered within this time after joining: 4 to 5 announcements.
-constexpr auto kDiscovery = 250ms;
+// Daemons that run are discovered within this time after joining: they announce themselves four
+// times a second.
+constexpr auto kDiscovery = 400ms;
 
 std::uint64_t random_id() {
   std::random_device random;
@@ -125,7 +126,7 @@ struct Client::Impl {
     const std::vector<std::string> worlds = participant.worlds();
     if (worlds.size() > 1)
       throw SeveralWorlds("several worlds on domain " + std::to_string(options.domain) +
-                     ", name one of them: " + joined(worlds));
+                          ", name one of them: " + joined(worlds));
     if (!worlds.empty()) open(worlds.front());
   }
 

@@ -26,8 +26,8 @@ namespace poinsot {
 
 struct ClientOptions {
   std::string world = {};  // empty: the only one there is
-  int domain = 77;    // DDS domain
-  bool lan = false;   // false: this host only
+  int domain = 77;         // DDS domain
+  bool lan = false;        // false: this host only
   // Identity on the bus; 0: drawn at random. Who shares one counts as one client: what one holds,
   // another can clear.
   std::uint64_t client = 0;

@@ -8,6 +8,7 @@
 #include "poinsot/base/error.h"
 #include "poinsot/protocol/limits.h"
 #include "poinsot/wire/participant_impl.h"
+#include "poinsot/wire/participant_numbers.h"
 #include "poinsot/wire/qos.h"
 #include "poinsot/wire/topics.h"
 
@@ -101,8 +102,14 @@ BusCore::BusCore(const BusOptions& options) {
   factory->load_profiles();  // FASTRTPS_DEFAULT_PROFILES_FILE becomes the default
   dds::DomainParticipantQos qos = factory->get_default_participant_qos();
   set_participant_qos(options, qos);
-  participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain), qos,
-                                             &directory_, dds::StatusMask::none());
+  // Another library of this process, or another thread, may have taken a number.
+  constexpr std::size_t kAttempts = 4;
+  const std::vector<int> numbers = participant_numbers(options.domain, qos);
+  for (std::size_t i = 0; i < std::min(kAttempts, numbers.size()) && participant_ == nullptr; ++i) {
+    qos.wire_protocol().participant_id = numbers[i];
+    participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain), qos,
+                                               &directory_, dds::StatusMask::none());
+  }
   if (participant_ != nullptr) {
     publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
     subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
