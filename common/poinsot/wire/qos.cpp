@@ -117,7 +117,8 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
 
   auto& builtin = qos.wire_protocol().builtin;
   builtin.discovery_config.leaseDuration = milliseconds(5000);
-  // The answer to a newcomer's first announcement is sometimes lost: it then waits for the next.
+  // Fast DDS 2.9.1 announces a newcomer before it listens: a quick answer is lost, and it waits for
+  // the next announcement.
   builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(250);
   builtin.discovery_config.initial_announcements = {10, milliseconds(50)};
   // Loopback need not be able to multicast: participants of this host are greeted one by one.
