@@ -1,5 +1,6 @@
 // poinsotd: runs or checks a scene. Options → scene → run → exit code.
 
+#include <cstdlib>
 #include <exception>
 #include <future>
 #include <iostream>
@@ -13,6 +14,7 @@
 #include "poinsot/runner/load_scene.h"
 #include "poinsot/runner/run_offline.h"
 #ifdef POINSOT_BUS
+#include "poinsot/service/client_command.h"
 #include "poinsot/service/run_daemon.h"
 #endif
 
@@ -54,11 +56,14 @@ CLI::App* add_check(CLI::App& app, Options& o) {
   return check;
 }
 
+std::filesystem::path program() {
+  return std::filesystem::canonical("/proc/self/exe");
+}
+
 // Installed beside the program, or in the source tree that it was built from.
 std::filesystem::path scene_file(const std::string& scene) {
-  const auto program = std::filesystem::canonical("/proc/self/exe");
   const std::filesystem::path directories[] = {
-      program.parent_path().parent_path() / POINSOT_DATA_DIR / "scenes", POINSOT_SOURCE_SCENES};
+      program().parent_path().parent_path() / POINSOT_DATA_DIR / "scenes", POINSOT_SOURCE_SCENES};
   return find_scene(scene, directories);
 }
 
@@ -80,6 +85,13 @@ void run_without_bus(Scene scene, const Options& o, StopSignals& signals) {
   std::cout << (o.json ? to_json(summary) : to_text(summary)) << std::flush;
 }
 
+#ifdef POINSOT_BUS
+std::string search_path() {
+  const char* const path = std::getenv("PATH");
+  return path == nullptr ? std::string() : path;
+}
+#endif
+
 void run(const Options& o, StopSignals& signals) {
   Scene scene = load_scene(scene_file(o.scene));
   if (o.offline) return run_without_bus(std::move(scene), o, signals);
@@ -90,6 +102,7 @@ void run(const Options& o, StopSignals& signals) {
                               .fast = o.fast,
                               .paused = o.paused,
                               .frames = o.frames,
+                              .client = client_command(program(), search_path()),
                               .trajectory = o.trajectory};
   const Logger logger = make_logger("poinsotd", spdlog::level::info, o.verbosity);
   run_daemon(std::move(scene), options, o.json, signals, logger, std::cout);
@@ -107,6 +120,7 @@ void check(const Options& o) {
 int main_of(int argc, const char* const* argv) {
   StopSignals signals;  // before any thread
   CLI::App app("Poinsot: a multibody simulation service.", "poinsotd");
+  set_plain_help(app);
   app.footer(exit_code_help());
   app.require_subcommand(1);
   add_version_option(app);

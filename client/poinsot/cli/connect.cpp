@@ -39,7 +39,7 @@ class Patience {
 
  private:
   Clock::time_point end_;
-  Clock::time_point tell_at_ = Clock::now() + 400ms;  // a server that runs is usually met before
+  Clock::time_point tell_at_ = Clock::now() + 1s;  // a server that runs is usually met before
 };
 
 // The calls of one user on one host are one client on the bus: what one call holds, a later one can
@@ -91,8 +91,8 @@ Client connect(const Context& context, StopSignals* stop) {
     try {
       client.wait_for_server(patience.next(kSlice));
       return client;
-    } catch (const SeveralWorlds&) {
-      throw;
+    } catch (const SeveralWorlds& several) {
+      throw NoAnswer(std::string(several.what()) + " (--world NAME)");
     } catch (const NoAnswer& none) {
       if (patience.is_over()) throw NoAnswer(no_server_text(flags, none.what()));
     }

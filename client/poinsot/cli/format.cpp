@@ -71,12 +71,12 @@ std::string flags_text(FrameFlag flags) {
 
 }  // namespace
 
-std::string pose_lines(const PoseSnapshot& poses, const Roster& roster) {
+std::string pose_lines(const PoseSnapshot& poses, const Roster& roster, double frame_rate) {
   std::string text;
   for (const BodyState& body : poses.bodies) {
     const std::string* const name = roster.shown(body.id);
     if (name == nullptr) continue;
-    text += fmt::format("{} {:.9g} {}", poses.frame, seconds(poses.sim_time_ns),
+    text += fmt::format("{} {:.9g} {}", poses.frame, end_time(poses.frame, frame_rate),
                         poinsot::quoted(*name));
     for (const double x : body.position) text += fmt::format(" {:.9g}", x);
     for (const double x : body.orientation.coeffs()) text += fmt::format(" {:.9g}", x);

@@ -34,7 +34,7 @@ std::vector<std::string> pose_table(const PoseSnapshot& poses, const Roster& ros
                                     const WatchHeader& header, const Screen& screen);
 
 // One line per body, for files and pipes, and the comment that names the columns.
-std::string pose_lines(const PoseSnapshot& poses, const Roster& roster);
+std::string pose_lines(const PoseSnapshot& poses, const Roster& roster, double frame_rate);
 inline constexpr std::string_view kPoseLinesTitle =
     "# frame time name px py pz qx qy qz qw vx vy vz wx wy wz\n";
 

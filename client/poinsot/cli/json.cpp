@@ -81,9 +81,9 @@ Json flag_names(FrameFlag flags) {
 }  // namespace
 
 // Written by hand: a thousand bodies at full frame rate would keep a tree of values busy.
-std::string pose_json(const PoseSnapshot& poses, const Roster& roster) {
+std::string pose_json(const PoseSnapshot& poses, const Roster& roster, double frame_rate) {
   std::string out = "{\"frame\":" + std::to_string(poses.frame) + ",\"time\":";
-  append(out, seconds(poses.sim_time_ns));
+  append(out, end_time(poses.frame, frame_rate));
   out += ",\"bodies\":[";
   const char* separator = "";
   for (const BodyState& body : poses.bodies) {

@@ -14,9 +14,9 @@
 
 namespace poinsot {
 
-// {"frame", "time", "bodies": [{"name", "position": [x, y, z], "orientation": {x, y, z, w},
+// {"frame", "time" [s], "bodies": [{"name", "position": [x, y, z], "orientation": {x, y, z, w},
 //   "linear_velocity": [x, y, z], "angular_velocity": [x, y, z]}]}; units and frames of BodyState.
-std::string pose_json(const PoseSnapshot& poses, const Roster& roster);
+std::string pose_json(const PoseSnapshot& poses, const Roster& roster, double frame_rate);
 
 // {"body", "code", "message", "epoch", "first_frame", "last_frame", "start_time", "end_time"};
 // last_frame and end_time are null until cleared; times [s] are those of the frames' boundaries.

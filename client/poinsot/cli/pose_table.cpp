@@ -53,9 +53,11 @@ std::size_t characters(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
 }
 
-// A number in a fixed width: fixed point while it fits, else with an exponent.
+// A number in a fixed width: fixed point while it fits, else with an exponent; zero has no sign.
 std::string cell(double value, const Group& group) {
   std::string text = fmt::format("{:.{}f}", value, group.decimals);
+  if (text.find_first_not_of("-0.") == std::string::npos)
+    text = fmt::format("{:.{}f}", 0.0, group.decimals);
   if (text.size() >= group.width) text = fmt::format("{:.1e}", value);
   return fmt::format("{:>{}}", text, group.width);
 }

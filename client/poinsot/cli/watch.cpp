@@ -26,6 +26,7 @@ class Watch {
         client_(connect(context, &stop_)),
         roster_(client_.scene(context.flags.timeout), options.bodies),
         pace_(options.rate) {
+    take(client_.report(context.flags.timeout));
     if (!options.json && stdout_is_terminal()) {
       screen_.emplace();
       if (options.rate == 0) pace_ = Pace(kTableRate);
@@ -56,18 +57,24 @@ class Watch {
     return output_closed_ || (options_.count > 0 && shown_ >= options_.count);
   }
 
+  void take(const RunReport& report) {
+    frame_rate_ = report.frame_rate;
+    state_ = name_of<RunState>(kRunStateNames, report.state);
+  }
+
   void show() {
     if (screen_) {
       draw();
     } else {
-      put(options_.json ? pose_json(poses_, roster_) : pose_lines(poses_, roster_));
+      put(options_.json ? pose_json(poses_, roster_, frame_rate_)
+                        : pose_lines(poses_, roster_, frame_rate_));
     }
     ++shown_;
   }
 
   void draw() {
     try {
-      state_ = name_of<RunState>(kRunStateNames, client_.report(0ns).state);
+      take(client_.report(0ns));
     } catch (const NoAnswer&) {  // no news
     }
     const WatchHeader header{.world = client_.world(),
@@ -81,6 +88,7 @@ class Watch {
   // A daemon that restarted with another scene. Throws Error if a wanted body is gone.
   void renew_roster() {
     roster_ = Roster(client_.scene(context_.flags.timeout), options_.bodies);
+    take(client_.report(context_.flags.timeout));
     context_.logger->info("scene_changed world={}", poinsot::quoted(client_.world()));
   }
 
@@ -109,7 +117,8 @@ class Watch {
   FrameMeter meter_;
   std::optional<LiveScreen> screen_;
   PoseSnapshot poses_;
-  std::string state_ = "waiting for a report";
+  double frame_rate_ = 0;  // [Hz]
+  std::string state_;      // of the run
   Clock::time_point silent_since_ = Clock::now();
   std::uint64_t shown_ = 0;
   bool output_closed_ = false;

@@ -15,6 +15,7 @@ struct DaemonOptions {
   bool fast = false;         // frames as fast as they can be advanced, not in real time
   bool paused = false;       // wait for resume or step
   std::uint64_t frames = 0;  // end after so many; 0: when asked
+  std::string client = "poinsot";  // how a shell calls the client, see client_command.h
   std::filesystem::path trajectory = {};  // empty: none
 };
 

@@ -42,6 +42,15 @@ std::string shell_word(const std::string& name) {
   return word + "'";
 }
 
+// The first body of one shape: compounds are seldom small. Else the first that moves.
+std::vector<BodyDef>::const_iterator body_to_push(const std::vector<BodyDef>& bodies) {
+  const auto moves = [](const BodyDef& body) { return !body.is_static; };
+  const auto simple = std::find_if(bodies.begin(), bodies.end(), [&](const BodyDef& body) {
+    return moves(body) && body.shapes.size() == 1;
+  });
+  return simple != bodies.end() ? simple : std::find_if(bodies.begin(), bodies.end(), moves);
+}
+
 void route_to(const Logger& logger) {
   route_bus_log([logger](BusLogLevel level, const std::string& message) {
     logger->log(level == BusLogLevel::error ? spdlog::level::err : spdlog::level::debug,
@@ -52,14 +61,14 @@ void route_to(const Logger& logger) {
 }  // namespace
 
 std::string invitation(const Scene& scene, const DaemonOptions& options) {
-  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                 [](const BodyDef& b) { return !b.is_static; });
-  std::string text = "In another terminal:\n  poinsot watch" + address(options) + "\n";
+  const auto body = body_to_push(scene.bodies);
+  const std::string client = "  " + shell_word(options.client);
+  std::string text = "In another terminal:\n" + client + " watch" + address(options) + "\n";
   if (body == scene.bodies.end()) return text;
   char force[32];
   std::snprintf(force, sizeof force, "%g",
                 round_to_two_digits(1.5 * kWeight * body->mass_properties.mass));
-  return text + "  poinsot push " + shell_word(body->name) + " --force 0,0," + force +
+  return text + client + " push " + shell_word(body->name) + " --force 0,0," + force +
          " --for 0.5s" + address(options) + "\n";
 }
 

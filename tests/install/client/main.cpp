@@ -1,21 +1,18 @@
-// A client in a program of its own: it joins the bus, and is told in words that nobody is there.
+// A user of the client library, with no server about: it joins the bus and says so.
 
+#include <chrono>
 #include <cstdio>
-#include <string>
 
-#include <poinsot/client/client.h>
+#include "poinsot/client/client.h"
 
 int main() {
-  using namespace std::chrono_literals;
-  poinsot::Client client({.world = "nowhere", .domain = 99});
+  constexpr int kQuietDomain = 231;
+  poinsot::Client client({.world = "nobody", .domain = kQuietDomain});
   try {
-    client.wait_for_server(100ms);
-  } catch (const poinsot::NoAnswer& error) {
-    std::printf("%s\n", error.what());
-    return std::string(error.what()).starts_with("no daemon found on domain 99") ||
-                   std::string(error.what()).starts_with("world 'nowhere' not found")
-               ? 0
-               : 1;
+    client.wait_for_server(std::chrono::milliseconds(100));
+  } catch (const poinsot::NoAnswer& none) {
+    std::printf("%s\n", none.what());
+    return 0;
   }
   return 1;
 }

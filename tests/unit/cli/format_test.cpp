@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/sample.h"
+#include "unit/cli/sample.h"
 
 namespace poinsot {
 namespace {
@@ -13,7 +13,7 @@ TEST(PoseLines, HaveOneFieldPerTitle) {
   std::istringstream title{std::string(kPoseLinesTitle)};
   std::string mark;
   title >> mark;  // '#'
-  const std::string text = pose_lines(sample::poses(), Roster(sample::bodies(), {"box"}));
+  const std::string text = pose_lines(sample::poses(), Roster(sample::bodies(), {"box"}), 60);
   std::istringstream line(text);
   std::string name, value;
   int titles = 0, values = 0;
@@ -24,8 +24,9 @@ TEST(PoseLines, HaveOneFieldPerTitle) {
 }
 
 TEST(PoseLines, QuoteNamesWithSpaces) {
-  EXPECT_NE(pose_lines(sample::poses(), Roster(sample::bodies(), {})).find("12 0.2 \"big ball\" "),
-            std::string::npos);
+  EXPECT_NE(
+      pose_lines(sample::poses(), Roster(sample::bodies(), {}), 60).find("12 0.2 \"big ball\" "),
+      std::string::npos);
 }
 
 WrenchCommand half_a_second_up() {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/sample.h"
+#include "unit/cli/sample.h"
 
 namespace poinsot {
 namespace {
@@ -26,7 +26,7 @@ json parsed(const std::string& text) {
 }
 
 json poses_of(const PoseSnapshot& poses, const std::vector<std::string>& wanted = {}) {
-  return parsed(pose_json(poses, Roster(sample::bodies(), wanted)));
+  return parsed(pose_json(poses, Roster(sample::bodies(), wanted), 60));
 }
 
 TEST(PoseJson, HasExactlyTheDocumentedKeys) {
@@ -72,7 +72,7 @@ TEST(PoseJson, StaysJsonWhenANumberIsNotFinite) {
 TEST(PoseJson, EscapesNames) {
   std::vector<BodyInfo> bodies = sample::bodies();
   bodies[1].name = "a \"quoted\" näme\n";
-  const json frame = parsed(pose_json(sample::poses(), Roster(bodies, {})));
+  const json frame = parsed(pose_json(sample::poses(), Roster(bodies, {}), 60));
   EXPECT_EQ(frame["bodies"][0]["name"], bodies[1].name);
 }
 

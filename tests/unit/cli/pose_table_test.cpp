@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "cli/sample.h"
 #include "poinsot/cli/format.h"
+#include "unit/cli/sample.h"
 
 namespace poinsot {
 namespace {
@@ -51,6 +51,14 @@ TEST(PoseTable, KeepsColumnsInLineWhenNumbersAreHuge) {
   const auto lines = table({.columns = 200, .rows = 50});
   EXPECT_EQ(lines[2].size(), lines[3].size());
   EXPECT_NE(lines[3].find("1.2e+08"), std::string::npos) << lines[3];
+}
+
+TEST(PoseTable, WritesZeroWithoutASign) {
+  PoseSnapshot poses = sample::poses();
+  poses.bodies[1].position = {-1e-9, -0.0, 1e-9};
+  const auto lines = pose_table(poses, Roster(sample::bodies(), {"big ball"}), kHeader,
+                                {.columns = 200, .rows = 50});
+  EXPECT_EQ(lines[2].find("-0.0000"), std::string::npos) << lines[2];
 }
 
 TEST(PoseTable, NeverExceedsTheScreen) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/sample.h"
 #include "poinsot/base/error.h"
+#include "unit/cli/sample.h"
 
 namespace poinsot {
 namespace {

@@ -7,13 +7,22 @@
 namespace poinsot {
 namespace {
 
-TEST(Invitation, NamesTheFirstBodyThatMovesAndAForceThatLiftsIt) {
+TEST(Invitation, NamesABodyThatMovesAndAForceThatLiftsIt) {
   Scene scene = test::empty_scene();
   scene.bodies = {test::floor(), test::box("crate", Vec3(0, 0, 1), Vec3(1, 1, 1), 3.7)};
   const std::string text = invitation(scene, {});
   EXPECT_NE(text.find("poinsot watch\n"), std::string::npos) << text;
   // 1.5 · 9.81 · 3.7 = 54.4
   EXPECT_NE(text.find("poinsot push crate --force 0,0,54 --for 0.5s\n"), std::string::npos) << text;
+}
+
+TEST(Invitation, PrefersABodyOfOneShape) {
+  Scene scene = test::empty_scene();
+  scene.bodies = {test::box("table", Vec3(0, 0, 0)), test::box("cup", Vec3(0, 0, 2))};
+  scene.bodies[0].shapes.push_back(scene.bodies[0].shapes[0]);
+  EXPECT_NE(invitation(scene, {}).find("push cup "), std::string::npos);
+  scene.bodies.pop_back();
+  EXPECT_NE(invitation(scene, {}).find("push table "), std::string::npos);
 }
 
 TEST(Invitation, LeadsToADaemonOnAnotherDomain) {
