@@ -192,17 +192,23 @@ void PointSet::reduce_into(const Vec3& normal, Manifold& manifold) const {
     return best != nullptr;
   };
   const Vec3& first = manifold.points[0].point;
-  const auto beside = [&](const Vec3& p) {
-    const Vec3 d = p - first;
+  const auto beside2 = [&](const Vec3& p, const Vec3& q) {
+    const Vec3 d = p - q;
     return d.squaredNorm() - d.dot(normal) * d.dot(normal);
   };
-  if (!keep_best(same_gap_ * same_gap_, beside)) return;
+  const double same2 = same_gap_ * same_gap_;
+  if (!keep_best(same2, [&](const Vec3& p) { return beside2(p, first); })) return;
   const Vec3& second = manifold.points[1].point;
   const auto area = [&](const Vec3& from, const Vec3& to, const Vec3& p) {
     return (to - from).cross(p - from).dot(normal);
   };
   const double no_area = same_gap_ * (second - first).norm();
-  if (!keep_best(no_area, [&](const Vec3& p) { return std::abs(area(first, second, p)); })) return;
+  if (!keep_best(no_area, [&](const Vec3& p) { return std::abs(area(first, second, p)); })) {
+    // On a line: the other end, where the deepest lies between both.
+    const double other_side = beside2(first, second) + no_area;
+    keep_best(other_side, [&](const Vec3& p) { return beside2(p, second); });
+    return;
+  }
   // Beyond the triangle's sides, whichever way it turns.
   const Vec3& third = manifold.points[2].point;
   const double turn = area(first, second, third) < 0 ? 1 : -1;
