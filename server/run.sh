@@ -6,14 +6,6 @@ set -euo pipefail
 root=$(dirname "$(dirname "$(realpath "$0")")")
 build=$root/build/release
 
-scene=push_me
-if [[ $# -gt 0 && $1 != -* ]]; then
-  scene=$1
-  shift
-fi
-shipped=$root/server/scenes/${scene%.yaml}.yaml
-if [[ ! -e $scene && -e $shipped ]]; then scene=$shipped; fi
-
 "$root/docker/install_packages.sh" build
 
 if [[ ! -e $build/build.ninja ]]; then
@@ -27,4 +19,4 @@ quiet=--quiet
 if [[ -t 2 ]]; then quiet=; fi
 ninja -C "$build" $quiet poinsotd poinsot_cli >&2
 
-exec "$build/server/poinsotd" run "$scene" "$@"
+exec "$build/bin/poinsotd" run "$@"

@@ -6,7 +6,7 @@ namespace {
 
 // Physics knows no clock and no thread of its own, and is silent.
 constexpr std::string_view kSilent =
-    "chrono ctime thread iostream cstdio fstream sys/time.h unistd.h";
+    "chrono ctime thread iostream fstream sys/time.h unistd.h";
 
 }  // namespace
 
@@ -24,7 +24,7 @@ const std::vector<ModuleRule>& module_rules() {
       {"contact", "base math scene simulation", "", kSilent},
       {"collision", "base math scene simulation contact", "fcl", kSilent},
       {"presentation", "base math scene simulation contact collision protocol", "",
-       "ctime thread iostream cstdio fstream sys/time.h unistd.h"},
+       "ctime thread iostream fstream sys/time.h unistd.h"},
       {"runner", "base math scene simulation contact collision presentation protocol program",
        "cli11 spdlog json", ""},
       {"study", "base math scene simulation contact collision presentation protocol program runner",

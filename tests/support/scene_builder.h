@@ -4,6 +4,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "poinsot/scene/scene.h"
 
@@ -37,6 +38,44 @@ inline BodyDef floor(const std::string& name = "floor") {
   body.is_static = true;
   body.mass_properties = {};
   return body;
+}
+
+// A homogeneous body of one shape [m], [kg/m³], at rest.
+inline BodyDef body(std::string name, const Shape& shape, const Vec3& position,
+                    double density = 1000) {
+  BodyDef def;
+  def.name = std::move(name);
+  def.shapes = {{shape, {}}};
+  def.mass_properties = mass_properties(shape, density);
+  def.pose.c = position;
+  return def;
+}
+
+// A body without a shape: nothing touches it [kg], [kg·m²].
+inline BodyDef free_body(std::string name, double mass, const Vec3& principal_moments) {
+  BodyDef def;
+  def.name = std::move(name);
+  def.mass_properties.mass = mass;
+  def.mass_properties.J = principal_moments.asDiagonal();
+  return def;
+}
+
+// The half-space z ≤ 0.
+inline BodyDef ground(double friction = 0.5, double restitution = 0) {
+  BodyDef def;
+  def.name = "ground";
+  def.is_static = true;
+  def.shapes = {{HalfSpace{}, {}}};
+  def.material = {friction, restitution};
+  return def;
+}
+
+// A scene of these bodies under gravity.
+inline Scene scene(std::vector<BodyDef> bodies) {
+  Scene result;
+  result.world = "test";
+  result.bodies = std::move(bodies);
+  return result;
 }
 
 }  // namespace poinsot::test

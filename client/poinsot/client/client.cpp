@@ -19,14 +19,20 @@ using namespace std::chrono_literals;
 
 constexpr auto kResendAfter = 250ms;
 constexpr auto kPoll = 2ms;
-// Daemons that run are discovered within this time after joining: 4 to 5 announcements.
-constexpr auto kDiscovery = 250ms;
+// Daemons that run are discovered within this time after joining: they announce themselves four
+// times a second.
+constexpr auto kDiscovery = 400ms;
 
 std::uint64_t random_id() {
   std::random_device random;
   std::uint64_t id = 0;
   while (id == 0) id = (std::uint64_t{random()} << 32) | random();
   return id;
+}
+
+std::uint64_t nanoseconds_since_1970() {
+  const auto time = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::nanoseconds(time).count());
 }
 
 std::string seconds(Client::Duration duration) {
@@ -101,10 +107,11 @@ struct Client::Impl {
     return *link;
   }
 
-  std::string nobody(Duration timeout) const {
+  std::string nobody(Duration timeout) const { return nobody(" within " + seconds(timeout)); }
+
+  std::string nobody(const std::string& after = {}) const {
     const std::vector<std::string> worlds = participant.worlds();
     const std::string domain = "domain " + std::to_string(options.domain);
-    const std::string after = " within " + seconds(timeout);
     if (worlds.empty()) return "no daemon found on " + domain + after;
     if (world.empty()) return "no daemon answered on " + domain + after;
     if (std::find(worlds.begin(), worlds.end(), world) != worlds.end())
@@ -118,8 +125,8 @@ struct Client::Impl {
       std::this_thread::sleep_for(kPoll);
     const std::vector<std::string> worlds = participant.worlds();
     if (worlds.size() > 1)
-      throw NoAnswer("several worlds on domain " + std::to_string(options.domain) +
-                     ", name one of them: " + joined(worlds));
+      throw SeveralWorlds("several worlds on domain " + std::to_string(options.domain) +
+                          ", name one of them: " + joined(worlds));
     if (!worlds.empty()) open(worlds.front());
   }
 
@@ -150,7 +157,7 @@ struct Client::Impl {
     Reply reply;
     while (true) {
       if (!publisher.write(message))
-        throw Error("the command does not fit on the bus (names: at most 127 bytes of UTF-8)");
+        throw Error("the command does not fit on the bus (body_name: at most 128 bytes of UTF-8)");
       const Clock::time_point resend = std::min(until, Clock::now() + kResendAfter);
       do {
         while (link->reply.take(reply))
@@ -164,8 +171,9 @@ struct Client::Impl {
   ClientOptions options;
   Participant participant;
   Clock::time_point joined_at;
-  std::uint64_t id = random_id();
-  std::uint64_t seq = 0;
+  std::uint64_t id = options.client != 0 ? options.client : random_id();
+  // Who shares an identity must not use a number twice; the time never stands still between them.
+  std::uint64_t seq = options.client != 0 ? nanoseconds_since_1970() : 0;
   std::string world;
   std::unique_ptr<Link> link;
   PoseSnapshot spare;               // received into, then swapped: a refused sample spoils nothing
@@ -190,7 +198,7 @@ void Client::wait_for_server(Duration timeout) {
   const Clock::time_point until = deadline(timeout);
   if (!impl_->link) impl_->find_the_only_world(until);
   while (!impl_->link || !impl_->link->is_matched()) {
-    if (!impl_->link || Clock::now() >= until) throw NoAnswer(impl_->nobody(timeout));
+    if (!impl_->link || Clock::now() >= until) throw NoAnswer(impl_->nobody());
     std::this_thread::sleep_for(kPoll);
   }
 }

@@ -25,15 +25,24 @@
 namespace poinsot {
 
 struct ClientOptions {
-  std::string world;  // empty: the only one there is
-  int domain = 77;    // DDS domain
-  bool lan = false;   // false: this host only
+  std::string world = {};  // empty: the only one there is
+  int domain = 77;         // DDS domain
+  bool lan = false;        // false: this host only
+  // Identity on the bus; 0: drawn at random. Who shares one counts as one client: what one holds,
+  // another can clear.
+  std::uint64_t client = 0;
 };
 
 // No answer within the time allowed, or no (single) daemon to talk to. The text says which.
 class NoAnswer : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// No world was named and there are several; the text lists them.
+class SeveralWorlds : public NoAnswer {
+ public:
+  using NoAnswer::NoAnswer;
 };
 
 // World names of the daemons that answer within `wait`, sorted.
@@ -49,8 +58,8 @@ class Client {
   Client(Client&&) noexcept;
   Client& operator=(Client&&) noexcept;
 
-  // Waits until the daemon is matched in both directions. Throws NoAnswer: none found, or several
-  // found and no world named (the text lists them). If a world was named, the other calls need not
+  // Waits until the daemon is matched in both directions. Throws NoAnswer if none is found in time
+  // (it may be called again), SeveralWorlds at once. If a world was named, the other calls need not
   // wait for it.
   void wait_for_server(Duration timeout);
 

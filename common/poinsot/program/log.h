@@ -2,7 +2,7 @@
 // stderr. Data belongs on stdout. Nothing is logged per frame, and repeats go through
 // RepeatLimiter.
 //
-//   logger->info("listening world={} domain={}", quoted(world), domain);
+//   logger->info("listening world={} domain={}", poinsot::quoted(world), domain);
 
 #pragma once
 

@@ -1,13 +1,11 @@
 #include "poinsot/program/options.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <ostream>
-#include <string_view>
-#include <vector>
 
 #include "poinsot/base/error.h"
-#include "poinsot/base/names.h"
 #include "poinsot/program/exit_code.h"
 #include "poinsot/program/parse.h"
 
@@ -28,10 +26,18 @@ std::string check_domain(const std::string& text) {
          std::to_string(kMaxDomain);
 }
 
-std::string check_reach(const std::string& text) {
-  if (text == "local" || text == "lan") return {};
-  return "'" + text + "' is neither local (this host) nor lan";
-}
+constexpr std::array<Named<bool>, 2> kReachNames = {{{"local", false}, {"lan", true}}};
+
+class PlainFormatter : public CLI::Formatter {
+ public:
+  PlainFormatter() { label("SUBCOMMAND", "VERB"); }
+
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_type_size() == 0) return {};  // a flag
+    const std::string type = option->get_type_name();
+    return " " + type.substr(0, type.find(':'));  // the checks' names come after a colon
+  }
+};
 
 // The verb that the command line got to, or the program itself.
 const CLI::App* deepest(const CLI::App* app) {
@@ -90,17 +96,28 @@ std::string full_name(const CLI::App& app) {
 
 }  // namespace
 
+std::string joined(std::span<const std::string_view> names, std::string_view separator) {
+  std::string text;
+  for (const std::string_view name : names) {
+    if (!text.empty()) text += separator;
+    text += name;
+  }
+  return text;
+}
+
+std::string unknown_choice(std::string_view word, std::span<const std::string_view> names) {
+  return "'" + std::string(word) + "' is not one of " + joined(names, ", ") +
+         did_you_mean(word, names);
+}
+
 void add_bus_options(CLI::App& app, BusFlags& flags) {
-  app.add_option("--domain", flags.domain, "DDS domain, 0 to 232")
-      ->check(CLI::Validator(check_domain, "N", "domain"))
+  app.add_option("--domain", flags.domain,
+                 "DDS domain, 0 to 232 [environment variable POINSOT_DOMAIN_ID, or 77]")
+      ->check(CLI::Validator(check_domain, "", "domain"))
       ->envname("POINSOT_DOMAIN_ID")
-      ->type_name("")
-      ->capture_default_str();
-  app.add_option_function<std::string>(
-         "--listen", [&flags](const std::string& reach) { flags.lan = reach == "lan"; },
-         "whom to talk to: local (this host only, the default) or lan")
-      ->check(CLI::Validator(check_reach, "local|lan", "reach"))
-      ->type_name("");
+      ->type_name("N");
+  add_choice_option<bool>(app, "--listen", flags.lan, kReachNames,
+                          "whom to talk to: this host only, or the local network [local]");
 }
 
 void add_verbose_option(CLI::App& app, int& verbosity) {
@@ -111,6 +128,10 @@ void add_verbose_option(CLI::App& app, int& verbosity) {
 
 void add_version_option(CLI::App& app) {
   app.set_version_flag("--version", app.get_name() + " " POINSOT_VERSION, "print the version");
+}
+
+void set_plain_help(CLI::App& app) {
+  app.formatter(std::make_shared<PlainFormatter>());
 }
 
 CLI::Option* add_vector_option(CLI::App& app, const std::string& name, Eigen::Vector3d& value,

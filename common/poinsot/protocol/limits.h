@@ -8,7 +8,7 @@
 namespace poinsot {
 
 inline constexpr std::size_t kMaxBodies = 131072;       // in one frame
-inline constexpr std::size_t kMaxNameLength = 127;      // bytes of a body's name, UTF-8
+inline constexpr std::size_t kMaxNameLength = 127;      // bytes of a body's or world's name
 inline constexpr std::size_t kMaxMessageLength = 1023;  // bytes of a reply's text; longer is cut
 inline constexpr std::size_t kMaxShapes = 64;           // of one body
 inline constexpr std::size_t kMaxVertices = 4096;       // of one convex shape

@@ -35,8 +35,8 @@ struct WrenchCommand {
   std::uint64_t client = 0;  // chosen by the client, unique on the bus
   std::uint64_t seq = 0;     // counts the client's commands and controls
   std::uint32_t epoch = 0;   // run that it is meant for; 0: whichever runs
-  BodyId body;               // none: by name
-  std::string body_name;     // used when `body` is none
+  BodyId body = {};          // none: by name
+  std::string body_name = {};  // used when `body` is none
   Vec3 force = Vec3::Zero();   // [N]
   Vec3 torque = Vec3::Zero();  // [N·m] about the point of action's own axes: a free couple
   Axes axes = Axes::world;     // of force and torque
@@ -59,7 +59,7 @@ struct Reply {
   std::uint64_t seq = 0;
   std::uint32_t epoch = 0;  // of the run that answered
   ResultCode code = ResultCode::ok;
-  std::string message;            // why, in words; empty when all is well
+  std::string message = {};       // why, in words; empty when all is well
   std::uint64_t first_frame = 0;  // first and last frame of effect; for a control the frame reached
   std::uint64_t last_frame = 0;   // kForever: until cleared
   std::uint64_t state_hash = 0;   // after a control: hash of the frame reached

@@ -93,8 +93,7 @@ void check_solid(const Points& points, const std::vector<int>& indices) {
   const Vec3 b = farthest([&](const Vec3& p) { return (p - a).norm(); }).second;
   const Vec3 along = (b - a).normalized();
   const auto [width, c] = farthest([&](const Vec3& p) { return (p - a).cross(along).norm(); });
-  if (indices.size() < 4 || !(width > kFlatness))
-    throw Error("a convex shape's points must not lie on a line");
+  if (!(width > kFlatness)) throw Error("a convex shape's points must not lie on a line");
   const Vec3 normal = along.cross(c - a).normalized();
   const double height = farthest([&](const Vec3& p) { return std::abs(normal.dot(p - a)); }).first;
   if (!(height > kFlatness)) throw Error("a convex shape's points must not lie in a plane");

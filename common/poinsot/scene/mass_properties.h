@@ -20,8 +20,8 @@ struct MassProperties {
 };
 
 struct Particle {
-  double mass = 0;             // [kg]
-  Vec3 point = Vec3::Zero();   // [m]
+  double mass = 0;            // [kg]
+  Vec3 point = Vec3::Zero();  // [m]
 };
 
 // Volume of a solid shape [m³]; a half-space has none and may not be asked.

@@ -1,5 +1,5 @@
-// Shapes: a closed set, as plain data. All lengths in metres, axes along z, centred at the origin of
-// the shape's frame (a cone's centre is half-way up: apex at +length/2, base at −length/2).
+// Shapes: a closed set, as plain data. All lengths in metres, axes along z, centred at the origin
+// of the shape's frame (a cone's centre is half-way up: apex at +length/2, base at −length/2).
 
 #pragma once
 
@@ -56,13 +56,15 @@ using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Conv
 inline constexpr std::array<std::string_view, std::variant_size_v<Shape>> kShapeNames = {
     "sphere", "box", "capsule", "cylinder", "cone", "ellipsoid", "convex", "half_space"};
 
-inline std::string_view shape_name(const Shape& shape) { return kShapeNames[shape.index()]; }
+inline std::string_view shape_name(const Shape& shape) {
+  return kShapeNames[shape.index()];
+}
 
 // Radius about the shape's origin that holds every point of it [m]; infinite for a half-space.
 double bounding_radius(const Shape& shape);
 
-// The hull of at least four points that do not lie in a plane; throws Error otherwise. Vertices keep
-// the order of the points, so the result does not depend on the hull code's own order.
+// The hull of at least four points that do not lie in a plane; throws Error otherwise. Vertices
+// keep the order of the points, so the result does not depend on the hull code's own order.
 Convex convex_hull(std::span<const Vec3> points);
 
 }  // namespace poinsot

@@ -10,7 +10,7 @@
 namespace poinsot {
 namespace {
 
-constexpr std::size_t kMaxRead = 20'000'000;  // values; aliases can multiply what a file holds
+constexpr std::size_t kMaxRead = 10'000'000;  // values; aliases can multiply what a file holds
 constexpr std::size_t kMaxQuote = 60;         // [bytes] of a value repeated in a message
 
 std::string quoted(std::string_view text) {
@@ -45,18 +45,16 @@ bool contains(std::span<const std::string_view> words, std::string_view word) {
 // Decimal numbers as JSON and YAML 1.2 share them, and a leading '+'. Not: nan, inf, hex, octal or
 // anything that looks octal, sexagesimal, underscores, what does not fit into a double.
 std::optional<double> decimal(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  std::string_view digits = text;
-  if (!digits.empty() && digits.front() == '-' && text.data() == digits.data())
-    digits.remove_prefix(1);
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  if (digits.empty() || !(is_digit(digits[0]) || digits[0] == '.')) return std::nullopt;
-  if (digits.size() > 1 && digits[0] == '0' && is_digit(digits[1])) return std::nullopt;
+  if (text.empty() || !(is_digit(text[0]) || text[0] == '.')) return std::nullopt;
+  if (text.size() > 1 && text[0] == '0' && is_digit(text[1])) return std::nullopt;
   double value = 0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value, std::chars_format::general);
   if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
+  return negative ? -value : value;
 }
 
 }  // namespace

@@ -30,7 +30,11 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    place(add(YamlNode::Kind::nothing, mark, "", anchor));
+    YamlNode* node = add(YamlNode::Kind::nothing, mark, "", anchor);
+    // yaml-cpp sees a missing value only at the next token; its key is the better place.
+    const YamlNode* key = open_.empty() ? nullptr : open_.back().key;
+    if (key && key->line != node->line) node->line = key->line, node->column = key->column;
+    place(node);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const YamlNode* node = anchors_.at(anchor);

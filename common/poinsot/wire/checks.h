@@ -29,17 +29,15 @@ class Checks {
   void number(double value, std::string_view name, double limit = HUGE_VAL);
   void vector(const Vec3& value, std::string_view name, double limit = HUGE_VAL);
   void unit(const Quat& value, std::string_view name);
-  // UTF-8 without control characters, at most `limit` bytes.
+  // Printable UTF-8, at most `limit` bytes.
   void text(std::string_view value, std::string_view name, std::size_t limit);
 
  private:
   std::string reason_;
 };
 
-// Quoted and shortened, for a reason.
+// Six digits, for a reason.
 std::string number_text(double value);
-
-bool is_utf8(std::string_view text);
 
 inline Vec3 from(const msg::v1::Vector3& v) {
   return {v.x(), v.y(), v.z()};

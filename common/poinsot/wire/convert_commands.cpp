@@ -52,7 +52,6 @@ std::string from_message(const msg::v1::BodyWrench& in, WrenchCommand& out) {
   out.body = {in.body().slot(), in.body().generation()};
   out.body_name = in.body_name().c_str();
   checks.text(out.body_name, "body_name", kMaxNameLength);
-  checks.require(out.body || !out.body_name.empty(), "no body is named");
   out.force = from(in.force());
   out.torque = from(in.torque());
   checks.vector(out.force, "force", kMaxWrench);
@@ -63,6 +62,8 @@ std::string from_message(const msg::v1::BodyWrench& in, WrenchCommand& out) {
   if (out.point_frame == PointFrame::center_of_mass) out.point = Vec3::Zero();
   checks.vector(out.point, "point_of_action", kMaxPoint);
   out.hold = known(checks, in.hold(), Hold::clear, "hold");
+  // A clear without a body means all bodies.
+  checks.require(out.body || !out.body_name.empty() || out.hold == Hold::clear, "no body is named");
   out.duration_ns = out.hold == Hold::duration ? in.duration_ns() : 0;
   if (out.hold == Hold::duration) {
     checks.require(out.duration_ns > 0, "duration_ns is not positive");

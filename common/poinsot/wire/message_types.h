@@ -2,6 +2,8 @@
 
 #pragma once
 
+#include <exception>
+
 #include "poinsot/msg/controlPubSubTypes.h"
 #include "poinsot/msg/posesPubSubTypes.h"
 #include "poinsot/msg/replyPubSubTypes.h"
@@ -12,31 +14,45 @@
 
 namespace poinsot {
 
+// A generated type support that lets no exception out: bytes that are no message are a refused
+// sample, not the end of the process.
+template <class Support>
+class SafeSupport : public Support {
+ public:
+  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override {
+    try {
+      return Support::deserialize(payload, data);
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+};
+
 template <class Message>
 struct MessageType;
 template <>
 struct MessageType<PoseSnapshot> {
-  using Support = msg::v1::PoseFramePubSubType;
+  using Support = SafeSupport<msg::v1::PoseFramePubSubType>;
 };
 template <>
 struct MessageType<BodyInfo> {
-  using Support = msg::v1::BodyDescriptionPubSubType;
+  using Support = SafeSupport<msg::v1::BodyDescriptionPubSubType>;
 };
 template <>
 struct MessageType<RunReport> {
-  using Support = msg::v1::RunStatusPubSubType;
+  using Support = SafeSupport<msg::v1::RunStatusPubSubType>;
 };
 template <>
 struct MessageType<WrenchCommand> {
-  using Support = msg::v1::BodyWrenchPubSubType;
+  using Support = SafeSupport<msg::v1::BodyWrenchPubSubType>;
 };
 template <>
 struct MessageType<RunControl> {
-  using Support = msg::v1::RunRequestPubSubType;
+  using Support = SafeSupport<msg::v1::RunRequestPubSubType>;
 };
 template <>
 struct MessageType<Reply> {
-  using Support = msg::v1::CommandReplyPubSubType;
+  using Support = SafeSupport<msg::v1::CommandReplyPubSubType>;
 };
 
 }  // namespace poinsot

@@ -6,7 +6,9 @@
 #include <fastdds/dds/log/Log.hpp>
 
 #include "poinsot/base/error.h"
+#include "poinsot/protocol/limits.h"
 #include "poinsot/wire/participant_impl.h"
+#include "poinsot/wire/participant_numbers.h"
 #include "poinsot/wire/qos.h"
 #include "poinsot/wire/topics.h"
 
@@ -57,11 +59,10 @@ std::string checked_topic_name(std::string_view world, std::string_view topic) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  constexpr std::size_t kMaxWorldName = 127;
-  if (world.empty() || world.size() > kMaxWorldName ||
+  if (world.empty() || world.size() > kMaxNameLength ||
       !std::all_of(world.begin(), world.end(), allowed))
-    throw Error("world '" + std::string(world) +
-                "': a world's name has 1 to 127 letters, digits, '_' and '-'");
+    throw Error("world '" + std::string(world) + "': a world's name has 1 to " +
+                std::to_string(kMaxNameLength) + " letters, digits, '_' and '-'");
   return topic_name(world, topic);
 }
 
@@ -101,8 +102,14 @@ BusCore::BusCore(const BusOptions& options) {
   factory->load_profiles();  // FASTRTPS_DEFAULT_PROFILES_FILE becomes the default
   dds::DomainParticipantQos qos = factory->get_default_participant_qos();
   set_participant_qos(options, qos);
-  participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain), qos,
-                                             &directory_, dds::StatusMask::none());
+  // Another library of this process, or another thread, may have taken a number.
+  constexpr std::size_t kAttempts = 4;
+  const std::vector<int> numbers = participant_numbers(options.domain, qos);
+  for (std::size_t i = 0; i < std::min(kAttempts, numbers.size()) && participant_ == nullptr; ++i) {
+    qos.wire_protocol().participant_id = numbers[i];
+    participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain), qos,
+                                               &directory_, dds::StatusMask::none());
+  }
   if (participant_ != nullptr) {
     publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
     subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);

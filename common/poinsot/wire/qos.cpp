@@ -36,9 +36,6 @@ constexpr std::uint32_t kPoseBytes = 112;      // of one body in a frame
 constexpr std::uint32_t kFramesInSegment = 6;  // fewer, and frames arrive by repair only
 constexpr std::uint32_t kMaxMessage = 65500;   // [bytes] one datagram; larger samples are fragments
 constexpr std::uint32_t kSocketBuffer = 4 * kMegabyte;
-// Participants of one domain on this host that find each other: an announcement goes to each of
-// their ports. More would leave the range of ports on the highest domain, which ends the process.
-constexpr std::uint32_t kMaxLocalParticipants = 60;
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr const char* kMulticast = "239.255.0.1";  // RTPS default, section 9.6.1.4.1
 
@@ -110,7 +107,7 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
   udp->sendBufferSize = kSocketBuffer;  // the kernel grants what net.core allows
   udp->receiveBufferSize = kSocketBuffer;
   udp->maxMessageSize = kMaxMessage;
-  udp->maxInitialPeersRange = kMaxLocalParticipants;
+  udp->maxInitialPeersRange = static_cast<std::uint32_t>(kMaxLocalParticipants);
   if (!options.lan) udp->interfaceWhiteList.emplace_back(kLoopback);
   auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
   shared_memory->segment_size(segment_size(options.bodies));
@@ -120,7 +117,8 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
 
   auto& builtin = qos.wire_protocol().builtin;
   builtin.discovery_config.leaseDuration = milliseconds(5000);
-  builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(1500);
+  // The answer to a newcomer's first announcement is sometimes lost: it then waits for the next.
+  builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(250);
   builtin.discovery_config.initial_announcements = {10, milliseconds(50)};
   // Loopback need not be able to multicast: participants of this host are greeted one by one.
   add_peer(qos, kLoopback, 0);

@@ -15,6 +15,10 @@
 
 namespace poinsot {
 
+// Participants of one domain on this host that find each other: an announcement goes to the port of
+// each. More would leave the range of ports on the highest domain, which ends the process.
+inline constexpr int kMaxLocalParticipants = 32;
+
 struct TopicQos {
   std::string_view topic;
   bool late_joiners;      // transient local: who comes later gets what the writer keeps

@@ -8,6 +8,39 @@
 #include "poinsot/collision/contact_set.h"
 
 namespace poinsot {
+namespace {
+
+// Shares the CPU time of a frame among the layers as they shared its wall time: reading the CPU clock
+// takes a system call, too dear for every sub-step.
+class FrameTimes {
+ public:
+  explicit FrameTimes(CollisionTimes& times)
+      : times_(times), before_(times), start_(Stopwatch::now()) {}
+  ~FrameTimes() {
+    const double cpu = Stopwatch::now().cpu_s - start_.cpu_s;
+    const double wall = wall_of(times_) - wall_of(before_);
+    if (wall <= 0) return;
+    const auto share = [&](Elapsed& now, const Elapsed& before) {
+      now.cpu_s += cpu * (now.wall_s - before.wall_s) / wall;
+    };
+    share(times_.collision, before_.collision);
+    share(times_.contact, before_.contact);
+    share(times_.simulation, before_.simulation);
+  }
+  FrameTimes(const FrameTimes&) = delete;
+  FrameTimes& operator=(const FrameTimes&) = delete;
+
+ private:
+  static double wall_of(const CollisionTimes& t) {
+    return t.collision.wall_s + t.contact.wall_s + t.simulation.wall_s;
+  }
+
+  CollisionTimes& times_;
+  CollisionTimes before_;
+  Elapsed start_;
+};
+
+}  // namespace
 
 struct CollisionLayer::Contacts {
   ContactSet set;
@@ -27,6 +60,7 @@ CollisionLayer::CollisionLayer(CollisionLayer&&) noexcept = default;
 CollisionLayer& CollisionLayer::operator=(CollisionLayer&&) noexcept = default;
 
 void CollisionLayer::advance_to(double t_end) {
+  const FrameTimes frame_times(times_);
   const double t_start = time();
   const int steps = step_count(t_end - t_start, longest_step_);
   for (int k = 1; k < steps; ++k) advance_substep(t_start + k * ((t_end - t_start) / steps));
@@ -37,16 +71,19 @@ void CollisionLayer::advance_substep(double t_end) {
   const double h = t_end - time();
   auto& [set, resolution] = *contacts_;
   {
-    const Stopwatch::Lap lap(collision_elapsed_);
+    const Stopwatch::WallLap lap(times_.collision.wall_s);
     set.find(world(), h);
   }
   {
-    const Stopwatch::Lap lap(contact_elapsed_);
+    const Stopwatch::WallLap lap(times_.contact.wall_s);
     report_.push_out_energy += resolution.push_out(world(), set, h);
     report_.impact_loss += resolution.resolve_impacts(world(), set, h);
     resolution.resolve_contacts(simulation_, set, h);
   }
-  simulation_.advance_to(t_end);
+  {
+    const Stopwatch::WallLap lap(times_.simulation.wall_s);
+    simulation_.advance_to(t_end);
+  }
 
   report_.contacts = 0;
   report_.max_penetration = 0;

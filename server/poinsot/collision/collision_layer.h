@@ -21,6 +21,12 @@ struct CollisionReport {
   double push_out_energy = 0;  // [J] added by the removal of penetration so far
 };
 
+struct CollisionTimes {
+  Elapsed collision;   // finding contacts
+  Elapsed contact;     // resolving them
+  Elapsed simulation;  // integrating
+};
+
 class CollisionLayer {
  public:
   explicit CollisionLayer(const Scene& scene);
@@ -46,9 +52,8 @@ class CollisionLayer {
   // Adds what a continuation depends on besides the world.
   void hash_into(Hash64& hash) const;
 
-  // Time spent in this layer alone, and in the contact solver beneath it.
-  const Elapsed& collision_elapsed() const { return collision_elapsed_; }
-  const Elapsed& contact_elapsed() const { return contact_elapsed_; }
+  // Time spent so far. CPU time is read once per frame and shared out as wall time is.
+  const CollisionTimes& times() const { return times_; }
 
  private:
   void advance_substep(double t_end);
@@ -60,7 +65,7 @@ class CollisionLayer {
   CollisionReport report_;
   EnergyScale energy_scale_;
   double start_energy_;  // [J]
-  Elapsed collision_elapsed_, contact_elapsed_;
+  CollisionTimes times_;
 };
 
 // Pairs of bodies that overlap by more than the scene's tolerance, as faults that name both and the

@@ -105,7 +105,10 @@ void ContactSet::add(const World& world, const ColliderPair& pair, const Manifol
     contact.restitution = std::max(material_a.restitution, material_b.restitution);
     contact.friction = std::sqrt(material_a.friction * material_b.friction);
     contacts_.push_back(contact);
-    memories_.push_back({pair, p.point - position(world.y, mover), smaller(a.size, b.size), 0});
+    // On the mover's own surface: the point midway moves while the gap closes.
+    const double to_surface = (mover == a.body ? 0.5 : -0.5) * p.gap;
+    const Vec3 on_mover = p.point + to_surface * manifold.normal;
+    memories_.push_back({pair, on_mover - position(world.y, mover), smaller(a.size, b.size), 0});
   }
 }
 

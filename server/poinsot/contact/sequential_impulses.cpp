@@ -117,6 +117,9 @@ void SequentialImpulses::solve(std::span<ContactBody> bodies, std::span<Contact>
     }
     if (moved <= settled_speed) break;
   }
+  // Normal impulses may have shrunk since friction was last looked at: back into the cone.
+  for (std::size_t i = 0; i < n; ++i)
+    if (contacts[i].friction > 0) visit_friction(prepared_[i], contacts[i].friction, bodies);
   for (std::size_t i = 0; i < n; ++i) {
     const Prepared& p = prepared_[i];
     contacts[i].normal_impulse = p.impulse;

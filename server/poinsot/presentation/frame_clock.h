@@ -5,7 +5,8 @@
 // that comes later than that starts the clock afresh from now: simulated time never skips, and a
 // run never hurries to make up for more than one frame. Both count as overruns.
 //
-// The time source is injected: now() and sleep_until(t), both in [ns] of one steady clock.
+// The time source is injected: now() and sleep_until(t), both in [ns] of one steady clock. A sleep
+// that returns false was cut short by the end of the run: then the wait ends as well.
 
 #pragma once
 
@@ -40,7 +41,7 @@ class FrameClock {
     const std::int64_t due = start_ + std::llround(static_cast<double>(frame_) * period_);
     const std::int64_t now = time_.now();
     if (now <= due) {
-      if (due - now > kSpin) time_.sleep_until(due - kSpin);
+      if (due - now > kSpin && !time_.sleep_until(due - kSpin)) return true;
       while (time_.now() < due) {
       }
       return true;

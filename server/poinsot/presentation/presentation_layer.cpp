@@ -50,28 +50,26 @@ void PresentationLayer::capture() {
   snapshot_.frame = frame_;
   snapshot_.sim_time_ns = std::llround(static_cast<double>(frame_) * 1e9 / frame_rate());
   snapshot_.state_hash = state_hash(frame_, collision_, held_);
-}
 
-FrameReport PresentationLayer::report() const {
   const CollisionReport& collision = collision_.report();
   const std::uint32_t quarantined = collision_.simulation().quarantined();
-  return {.frame = frame_,
-          .sim_time = time(),
-          .bodies = static_cast<std::uint32_t>(columns_.size()),
-          .contacts = collision.contacts,
-          .quarantined = quarantined,
-          .energy = collision_.energy(),
-          .energy_error = collision_.energy_error(),
-          .push_out_energy = collision.push_out_energy,
-          .max_penetration = collision.max_penetration,
-          .flags = quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none};
+  report_ = {.frame = frame_,
+             .sim_time = time(),
+             .bodies = static_cast<std::uint32_t>(columns_.size()),
+             .contacts = collision.contacts,
+             .quarantined = quarantined,
+             .energy = collision_.energy(),
+             .energy_error = collision_.energy_error(),
+             .push_out_energy = collision.push_out_energy,
+             .max_penetration = collision.max_penetration,
+             .flags = quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none};
 }
 
 LayerTimes PresentationLayer::times() const {
   LayerTimes times = times_;
-  times.collision += collision_.collision_elapsed();
-  times.contact += collision_.contact_elapsed();
-  times.simulation += collision_.simulation().elapsed();
+  times.collision += collision_.times().collision;
+  times.contact += collision_.times().contact;
+  times.simulation += collision_.times().simulation;
   return times;
 }
 

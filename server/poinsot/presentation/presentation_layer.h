@@ -40,7 +40,7 @@ class PresentationLayer {
   // The dynamic bodies at the end of the last frame, with its hash. session and publish_time_ns are
   // left to whoever sends it.
   const PoseSnapshot& snapshot() const { return snapshot_; }
-  FrameReport report() const;
+  const FrameReport& report() const { return report_; }
   LayerTimes times() const;  // since construction, over all epochs
 
  private:
@@ -52,6 +52,7 @@ class PresentationLayer {
   std::uint64_t frame_ = 0;
   std::uint32_t epoch_ = 1;
   PoseSnapshot snapshot_;
+  FrameReport report_;
   std::vector<Eigen::Index> columns_;  // of the snapshot's bodies
   LayerTimes times_;                   // own time, and the inner layers' before the last reset
 };

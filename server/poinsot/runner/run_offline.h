@@ -12,8 +12,8 @@
 namespace poinsot {
 
 struct OfflineOptions {
-  std::uint64_t frames = 0;          // 0: until stopped
-  std::filesystem::path trajectory;  // empty: none
+  std::uint64_t frames = 0;               // 0: until stopped
+  std::filesystem::path trajectory = {};  // empty: none
 };
 
 // Throws Error if the trajectory cannot be created, std::runtime_error if it cannot be written.

@@ -28,8 +28,9 @@ void integrate(Integrator& integrator, const Dynamics& dynamics, StateArray& y, 
       integrator);
 }
 
-void normalize_orientations(StateArray& y) {
-  for (Eigen::Index i = 0; i < y.cols(); ++i) orientation(y, i).normalize();
+void normalize_orientations(const World& world, StateArray& y) {
+  for (Eigen::Index i = 0; i < y.cols(); ++i)
+    if (world.moves(i)) orientation(y, i).normalize();
 }
 
 }  // namespace poinsot

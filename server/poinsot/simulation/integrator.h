@@ -40,7 +40,7 @@ int step_count(double duration, double longest);
 void integrate(Integrator& integrator, const Dynamics& dynamics, StateArray& y, double duration,
                double longest_step);
 
-// Brings every orientation back to unit length.
-void normalize_orientations(StateArray& y);
+// Brings the orientations of the bodies that move back to unit length.
+void normalize_orientations(const World& world, StateArray& y);
 
 }  // namespace poinsot

@@ -15,7 +15,7 @@ void RungeKutta4::step(const Dynamics& dynamics, StateArray& y, double h) {
   stage = y + h * k3;
   dynamics.derivative(stage, k4);
   y += (h / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
-  normalize_orientations(y);
+  normalize_orientations(dynamics.world, y);
 }
 
 }  // namespace poinsot

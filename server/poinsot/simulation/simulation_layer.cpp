@@ -27,7 +27,6 @@ SimulationLayer::SimulationLayer(const Scene& scene)
       work_(world_.size()) {}
 
 void SimulationLayer::advance_to(double t_end) {
-  const Stopwatch::Lap lap(elapsed_);
   const double duration = t_end - world_.time;
   const Dynamics dynamics{world_, contact_wrenches_};
   work_.start_step(dynamics);

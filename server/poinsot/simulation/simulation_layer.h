@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "poinsot/base/stopwatch.h"
 #include "poinsot/simulation/integrator.h"
 #include "poinsot/simulation/work_meter.h"
 #include "poinsot/simulation/world.h"
@@ -32,7 +31,6 @@ class SimulationLayer {
 
   std::uint32_t quarantined() const { return quarantined_; }  // bodies frozen so far
   const WorkMeter& work() const { return work_; }
-  const Elapsed& elapsed() const { return elapsed_; }
 
  private:
   void freeze_unsound();
@@ -44,7 +42,6 @@ class SimulationLayer {
   StateArray last_good_;  // 13×n, at the end of the last advance
   WorkMeter work_;
   std::uint32_t quarantined_ = 0;
-  Elapsed elapsed_;
 };
 
 }  // namespace poinsot

@@ -16,14 +16,16 @@ struct FakeTime {
   struct State {
     std::int64_t now = 1'000'000'007;
     std::int64_t overshoot = 60'000;
+    bool stopped = false;
     std::vector<std::int64_t> sleeps;  // the times slept until
   };
   State* state;
 
   std::int64_t now() { return state->now += kTick; }
-  void sleep_until(std::int64_t t) {
+  bool sleep_until(std::int64_t t) {
     state->sleeps.push_back(t);
-    state->now = std::max(state->now, t + state->overshoot);
+    if (!state->stopped) state->now = std::max(state->now, t + state->overshoot);
+    return !state->stopped;
   }
 };
 
@@ -49,6 +51,15 @@ TEST(FrameClock, SleepsUntilShortlyBeforeTheDeadlineAndSpinsTheRest) {
   ASSERT_EQ(state.sleeps.size(), 1u);
   EXPECT_EQ(state.sleeps[0], due - FrameClock<FakeTime>::kSpin);
   EXPECT_GE(state.now, due);
+}
+
+TEST(FrameClock, EndsTheWaitWhenTheSleepIsCutShort) {
+  FakeTime::State state;
+  FrameClock clock(FakeTime{&state}, 0.01);
+  state.stopped = true;
+  const std::int64_t before = state.now;
+  EXPECT_TRUE(clock.wait());
+  EXPECT_LE(state.now, before + 2 * kTick);  // no spin through the rest of a hundred seconds
 }
 
 TEST(FrameClock, DoesNotSleepWhenTheDeadlineIsNear) {

@@ -18,6 +18,7 @@ class Options : public ::testing::Test {
  protected:
   Options() {
     unsetenv("POINSOT_DOMAIN_ID");
+    set_plain_help(app_);
     add_version_option(app_);
     app_.require_subcommand(1);
     app_.footer(exit_code_help());
@@ -116,7 +117,15 @@ TEST_F(Options, NameTheOptionOfABadValue) {
   EXPECT_EQ(parse({"push", "box", "--force", "up"}), 2);
   EXPECT_NE(err_.str().find("--force: 'up' is not a vector"), std::string::npos) << err_.str();
   EXPECT_EQ(parse({"push", "box", "--listen", "moon"}), 2);
-  EXPECT_NE(err_.str().find("--listen: 'moon' is neither"), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find("--listen: 'moon' is not one of local, lan"), std::string::npos)
+      << err_.str();
+}
+
+TEST_F(Options, SuggestTheNearestChoice) {
+  EXPECT_EQ(parse({"push", "box", "--listen", "locl"}), 2);
+  EXPECT_NE(err_.str().find("'locl' is not one of local, lan, did you mean 'local'?"),
+            std::string::npos)
+      << err_.str();
 }
 
 TEST_F(Options, SayThatAnArgumentIsMissing) {
@@ -128,6 +137,13 @@ TEST_F(Options, PrintHelpWithTheExitCodesOnStdout) {
   EXPECT_EQ(parse({"--help"}), 0);
   EXPECT_NE(out_.str().find("Exit codes:\n  0  done"), std::string::npos) << out_.str();
   EXPECT_EQ(err_.str(), "");
+}
+
+TEST_F(Options, PrintHelpOfAVerbWithTheNamesOfItsValues) {
+  EXPECT_EQ(parse({"push", "--help"}), 0);
+  for (const char* text : {"--force X,Y,Z  ", "--for TIME  ", "--listen local|lan  ",
+                           "--domain N  ", "POINSOT_DOMAIN_ID"})
+    EXPECT_NE(out_.str().find(text), std::string::npos) << text << "\n" << out_.str();
 }
 
 TEST_F(Options, PrintTheVersionOnStdout) {

@@ -1,0 +1,35 @@
+// What every verb of the command-line client is given, and what it gives back.
+
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "poinsot/program/exit_code.h"
+#include "poinsot/program/log.h"
+#include "poinsot/program/options.h"
+
+namespace poinsot {
+
+// Which daemon to talk to, and how long to wait for it.
+struct ConnectionFlags {
+  BusFlags bus;
+  std::string world;  // empty: the only one there is
+  std::chrono::nanoseconds timeout = std::chrono::seconds(5);
+};
+
+struct Context {
+  ConnectionFlags flags;
+  Logger logger;
+};
+
+// Does a verb's work, after its options have been read. Throws NoAnswer, Error or Interrupted.
+using Action = std::function<ExitCode(const Context&)>;
+
+// A stop was asked for while there was nothing to lose: the program ends with ExitCode::ok.
+struct Interrupted {};
+
+}  // namespace poinsot

@@ -1,0 +1,35 @@
+// Texts for programs: one JSON object a line, numbers with all their digits (they read back as the
+// same double), 64-bit hashes and session numbers as 16 hexadecimal digits in a string.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "poinsot/cli/roster.h"
+#include "poinsot/protocol/body_info.h"
+#include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/pose_snapshot.h"
+#include "poinsot/protocol/wrench_command.h"
+
+namespace poinsot {
+
+// {"frame", "time" [s], "bodies": [{"name", "position": [x, y, z], "orientation": {x, y, z, w},
+//   "linear_velocity": [x, y, z], "angular_velocity": [x, y, z]}]}; units and frames of BodyState.
+std::string pose_json(const PoseSnapshot& poses, const Roster& roster, double frame_rate);
+
+// {"body", "code", "message", "epoch", "first_frame", "last_frame", "start_time", "end_time"};
+// last_frame and end_time are null until cleared; times [s] are those of the frames' boundaries.
+std::string push_json(const WrenchCommand& command, const Reply& reply, double frame_rate);
+
+// {"action", "code", "message", "epoch", "frame", "time", "state_hash"}.
+std::string control_json(std::string_view action, const Reply& reply, double frame_rate);
+
+// The report, with its fields' own names and units.
+std::string status_json(const std::string& world, const RunReport& report);
+
+// {"world", "state", "frame", "time", "frame_rate", "bodies": [{"name", "static", "mass"}]}.
+std::string list_json(const std::string& world, const RunReport& report,
+                      const std::vector<BodyInfo>& bodies);
+
+}  // namespace poinsot

@@ -1,0 +1,24 @@
+#include "poinsot/cli/status.h"
+
+#include <cstdio>
+
+#include "poinsot/cli/connect.h"
+#include "poinsot/cli/format.h"
+#include "poinsot/cli/json.h"
+
+namespace poinsot {
+
+Action declare_status(CLI::App& app) {
+  const auto json = std::make_shared<bool>(false);
+  app.add_flag("--json", *json, "print one JSON object");
+  return [json](const Context& context) {
+    Client client = connect(context);
+    const RunReport report = client.report(context.flags.timeout);
+    const std::string text =
+        *json ? status_json(client.world(), report) : status_text(client.world(), report);
+    std::fputs(text.c_str(), stdout);
+    return ExitCode::ok;
+  };
+}
+
+}  // namespace poinsot

@@ -1,0 +1,148 @@
+// poinsotd: runs or checks a scene. Options → scene → run → exit code.
+
+#include <cstdlib>
+#include <exception>
+#include <future>
+#include <iostream>
+#include <thread>
+
+#include "poinsot/base/error.h"
+#include "poinsot/program/exit_code.h"
+#include "poinsot/program/log.h"
+#include "poinsot/program/options.h"
+#include "poinsot/program/signals.h"
+#include "poinsot/runner/load_scene.h"
+#include "poinsot/runner/run_offline.h"
+#ifdef POINSOT_BUS
+#include "poinsot/service/client_command.h"
+#include "poinsot/service/run_daemon.h"
+#endif
+
+namespace poinsot {
+namespace {
+
+struct Options {
+  std::string scene = "push_me";
+  BusFlags bus;
+  std::string world;
+  bool fast = false;
+  bool paused = false;
+  bool offline = false;
+  bool json = false;
+  std::uint64_t frames = 0;
+  std::string trajectory;
+  int verbosity = 0;
+};
+
+CLI::App* add_run(CLI::App& app, Options& o) {
+  CLI::App* run = app.add_subcommand("run", "Run a scene and serve it on the bus");
+  run->add_option("scene", o.scene, "Scene file, or the name of a shipped scene")
+      ->capture_default_str();
+  add_bus_options(*run, o.bus);
+  run->add_option("--world", o.world, "Name on the bus (default: the scene's)");
+  run->add_flag("--fast", o.fast, "Frames as fast as they can be advanced, not in real time");
+  run->add_option("--frames", o.frames, "End after so many frames")->check(CLI::PositiveNumber);
+  run->add_flag("--paused", o.paused, "Start paused: wait for resume or step");
+  run->add_flag("--offline", o.offline, "No bus and no pacing");
+  run->add_option("--trajectory", o.trajectory, "Write every frame to this CSV file");
+  run->add_flag("--json", o.json, "Only the closing summary, as one line of JSON");
+  add_verbose_option(*run, o.verbosity);
+  return run;
+}
+
+CLI::App* add_check(CLI::App& app, Options& o) {
+  CLI::App* check = app.add_subcommand("check", "Validate a scene file without running it");
+  check->add_option("scene", o.scene, "Scene file, or the name of a shipped scene")->required();
+  return check;
+}
+
+std::filesystem::path program() {
+  return std::filesystem::canonical("/proc/self/exe");
+}
+
+// Installed beside the program, or in the source tree that it was built from.
+std::filesystem::path scene_file(const std::string& scene) {
+  const std::filesystem::path directories[] = {
+      program().parent_path().parent_path() / POINSOT_DATA_DIR / "scenes", POINSOT_SOURCE_SCENES};
+  return find_scene(scene, directories);
+}
+
+void run_without_bus(Scene scene, const Options& o, StopSignals& signals) {
+  if (o.paused) throw Error("--paused: nothing could resume a run that is --offline");
+  std::stop_source stop;
+  std::packaged_task<RunSummary()> task([&] {
+    return run_offline(std::move(scene), {.frames = o.frames, .trajectory = o.trajectory},
+                       stop.get_token());
+  });
+  std::future<RunSummary> result = task.get_future();
+  std::jthread worker([&] {
+    task();
+    signals.request_stop();
+  });
+  signals.wait();
+  stop.request_stop();
+  const RunSummary summary = result.get();
+  std::cout << (o.json ? to_json(summary) : to_text(summary)) << std::flush;
+}
+
+#ifdef POINSOT_BUS
+std::string search_path() {
+  const char* const path = std::getenv("PATH");
+  return path == nullptr ? std::string() : path;
+}
+#endif
+
+void run(const Options& o, StopSignals& signals) {
+  Scene scene = load_scene(scene_file(o.scene));
+  if (o.offline) return run_without_bus(std::move(scene), o, signals);
+#ifdef POINSOT_BUS
+  const DaemonOptions options{.domain = o.bus.domain,
+                              .lan = o.bus.lan,
+                              .world = o.world,
+                              .fast = o.fast,
+                              .paused = o.paused,
+                              .frames = o.frames,
+                              .client = client_command(program(), search_path()),
+                              .trajectory = o.trajectory};
+  const Logger logger = make_logger("poinsotd", spdlog::level::info, o.verbosity);
+  run_daemon(std::move(scene), options, o.json, signals, logger, std::cout);
+#else
+  throw Error("this poinsotd was built without a bus (POINSOT_BUILD_BUS=OFF): add --offline");
+#endif
+}
+
+void check(const Options& o) {
+  const std::filesystem::path file = scene_file(o.scene);
+  const Scene scene = load_scene(file);
+  std::cout << file.string() << ": valid, " << scene.bodies.size() << " bodies\n";
+}
+
+int main_of(int argc, const char* const* argv) {
+  StopSignals signals;  // before any thread
+  CLI::App app("Poinsot: a multibody simulation service.", "poinsotd");
+  set_plain_help(app);
+  app.footer(exit_code_help());
+  app.require_subcommand(1);
+  add_version_option(app);
+  Options options;
+  const CLI::App* run_command = add_run(app, options);
+  add_check(app, options);
+  if (const auto code = parse_command_line(app, argc, argv, std::cout, std::cerr)) return *code;
+  try {
+    run_command->parsed() ? run(options, signals) : check(options);
+    return to_int(ExitCode::ok);
+  } catch (const Error& error) {
+    std::cerr << error.what() << "\n";
+    return to_int(ExitCode::usage);
+  } catch (const std::exception& error) {
+    std::cerr << "poinsotd: " << error.what() << "\n";
+    return to_int(ExitCode::failure);
+  }
+}
+
+}  // namespace
+}  // namespace poinsot
+
+int main(int argc, char** argv) {
+  return poinsot::main_of(argc, argv);
+}

@@ -1,0 +1,84 @@
+#include "poinsot/service/daemon.h"
+
+#include <random>
+#include <utility>
+
+#include "poinsot/service/body_infos.h"
+
+namespace poinsot {
+namespace {
+
+std::uint64_t random_session() {
+  std::random_device random;
+  const std::uint64_t high = random();
+  return (high << 32 | random()) | 1;  // never 0
+}
+
+std::optional<Trajectory> open_trajectory(const DaemonOptions& options,
+                                          const PresentationLayer& layer) {
+  if (options.trajectory.empty()) return std::nullopt;
+  return std::make_optional<Trajectory>(options.trajectory, layer.world(), layer.frame_rate());
+}
+
+// Segments of dead processes go before the bus is joined, so that restarts do not pile them up.
+BusOptions prepare_bus(const DaemonOptions& options, std::size_t bodies, const Logger& logger) {
+  if (const int removed = remove_stale_segments(); removed > 0)
+    logger->info("stale_segments_removed files={}", removed);
+  return {.domain = options.domain, .lan = options.lan, .bodies = bodies};
+}
+
+}  // namespace
+
+Daemon::Daemon(Scene scene, const DaemonOptions& options, Logger logger,
+               std::function<void()> ended)
+    : logger_(std::move(logger)),
+      world_(options.world.empty() ? scene.world : options.world),
+      session_(random_session()),
+      layer_(std::move(scene)),
+      trajectory_(open_trajectory(options, layer_)),
+      outbox_(layer_.snapshot().bodies.size()),
+      loop_(layer_, inbox_, outbox_, loop_options(options)),
+      participant_(prepare_bus(options, layer_.snapshot().bodies.size(), logger_)),
+      publisher_(participant_, world_, outbox_,
+                 body_infos(layer_.scene(), layer_.world(), session_), session_),
+      receiver_(
+          participant_, world_, inbox_, outbox_, [this] { return loop_.epoch(); }, logger_) {
+  logger_->info("started world={} session={:016x} domain={} reach={} bodies={}",
+                poinsot::quoted(world_), session_, options.domain, options.lan ? "lan" : "local",
+                layer_.scene().bodies.size());
+  loop_thread_ = std::jthread([this, ended = std::move(ended)](const std::stop_token& stop) {
+    {
+      const Stopwatch::Lap lap(elapsed_);
+      loop_.run(stop);
+    }
+    ended();
+  });
+}
+
+Daemon::~Daemon() {
+  join_threads();
+}
+
+FrameLoopOptions Daemon::loop_options(const DaemonOptions& options) {
+  return {.fast = options.fast,
+          .paused = options.paused,
+          .frames = options.frames,
+          .each_frame = [this](const PresentationLayer& layer) {
+            if (trajectory_) trajectory_->write(layer.world(), layer.frame());
+          }};
+}
+
+RunSummary Daemon::stop() {
+  join_threads();
+  if (trajectory_) trajectory_->close();
+  return summarize(layer_, loop_.frames(), elapsed_.wall_s, publisher_.elapsed());
+}
+
+void Daemon::join_threads() {
+  loop_thread_.request_stop();
+  if (loop_thread_.joinable()) loop_thread_.join();
+  receiver_.stop();
+  publisher_.stop();
+}
+
+}  // namespace poinsot

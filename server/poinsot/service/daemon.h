@@ -1,0 +1,59 @@
+// The daemon: one run of a scene on the bus. Wires loop, publisher and receiver together and owns
+// their lifetimes.
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "poinsot/presentation/presentation_layer.h"
+#include "poinsot/program/log.h"
+#include "poinsot/runner/run_summary.h"
+#include "poinsot/runner/trajectory.h"
+#include "poinsot/service/command_inbox.h"
+#include "poinsot/service/command_receiver.h"
+#include "poinsot/service/daemon_options.h"
+#include "poinsot/service/frame_loop.h"
+#include "poinsot/service/frame_publisher.h"
+#include "poinsot/service/outbox.h"
+#include "poinsot/wire/participant.h"
+
+namespace poinsot {
+
+class Daemon {
+ public:
+  // Joins the bus and starts the run; calls `ended` from the loop's thread when the last frame of
+  // options.frames is done. Throws Error if the bus cannot be joined or the trajectory not created.
+  Daemon(Scene scene, const DaemonOptions& options, Logger logger, std::function<void()> ended);
+  ~Daemon();
+
+  const std::string& world() const { return world_; }
+  RunReport report() const { return outbox_.newest_report(); }
+
+  // Ends the run: the loop after its frame, then the receiver, then the publisher when all is sent.
+  // Throws std::runtime_error if the trajectory could not be written.
+  RunSummary stop();
+
+ private:
+  void join_threads();
+  FrameLoopOptions loop_options(const DaemonOptions& options);
+
+  Logger logger_;
+  std::string world_;
+  std::uint64_t session_;
+  PresentationLayer layer_;
+  std::optional<Trajectory> trajectory_;
+  CommandInbox inbox_;
+  Outbox outbox_;
+  FrameLoop loop_;
+  Participant participant_;
+  FramePublisher publisher_;
+  CommandReceiver receiver_;
+  Elapsed elapsed_;  // of the loop
+  std::jthread loop_thread_;
+};
+
+}  // namespace poinsot

@@ -1,0 +1,89 @@
+#include "poinsot/service/frame_publisher.h"
+
+#include <chrono>
+#include <utility>
+
+namespace poinsot {
+namespace {
+
+// How long a new reader of poses may go unnoticed while no frame is advanced.
+constexpr std::chrono::milliseconds kLookForReaders{100};
+
+std::int64_t now_utc_ns() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+}  // namespace
+
+FramePublisher::FramePublisher(Participant& participant, const std::string& world, Outbox& outbox,
+                               std::vector<BodyInfo> scene, std::uint64_t session)
+    : outbox_(outbox),
+      session_(session),
+      scene_(std::move(scene)),
+      scene_topic_(participant, world),
+      poses_topic_(participant, world),
+      report_topic_(participant, world),
+      reply_topic_(participant, world) {
+  // These change places with the outbox's: the same room on both sides, or the loop would allocate.
+  snapshot_.bodies.reserve(scene_.size());
+  replies_.reserve(Outbox::kReplies);
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void FramePublisher::stop() {
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+void FramePublisher::run(const std::stop_token& stop) {
+  for (const BodyInfo& body : scene_) scene_topic_.write(body);
+  while (!stop.stop_requested()) {
+    outbox_.wait(stop, kLookForReaders);
+    send();
+  }
+  send();  // what came before the stop
+}
+
+void FramePublisher::send() {
+  Elapsed lap;
+  {
+    const Stopwatch::Lap timer(lap);
+    send_poses();
+    if (outbox_.take(report_)) {
+      report_.session = session_;
+      report_.snapshots_dropped = outbox_.snapshots_dropped();
+      report_.times.publishing = elapsed();
+      report_topic_.write(report_);
+    }
+    // Last: who reads a reply finds the frame and the report that it speaks of.
+    if (outbox_.take(replies_))
+      for (const Reply& reply : replies_) reply_topic_.write(reply);
+  }
+  const std::lock_guard lock(mutex_);
+  elapsed_ += lap;
+}
+
+void FramePublisher::send_poses() {
+  const int readers = poses_topic_.readers();
+  const bool joined = readers > std::exchange(readers_, readers);
+  outbox_.set_poses_wanted(readers > 0);
+  if (readers == 0) return;
+  bool sent = false;
+  for (; outbox_.take(snapshot_); sent = true) write_poses();
+  if (joined && !sent && snapshot_.epoch != 0)
+    write_poses();  // again: nothing newer will come soon
+}
+
+void FramePublisher::write_poses() {
+  snapshot_.session = session_;
+  snapshot_.publish_time_ns = now_utc_ns();
+  poses_topic_.write(snapshot_);
+}
+
+Elapsed FramePublisher::elapsed() const {
+  const std::lock_guard lock(mutex_);
+  return elapsed_;
+}
+
+}  // namespace poinsot

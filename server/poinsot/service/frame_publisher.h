@@ -1,0 +1,59 @@
+// Frame publisher: the one thread that writes to the bus. It sends the scene when it starts, then
+// whatever the outbox holds. However slow a reader is, only this thread would notice.
+//
+// Poses are written while somebody reads them. A reader that joins while nothing moves gets the
+// newest frame at once, so that a paused run can be looked at.
+
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "poinsot/base/stopwatch.h"
+#include "poinsot/protocol/body_info.h"
+#include "poinsot/service/outbox.h"
+#include "poinsot/wire/publisher.h"
+
+namespace poinsot {
+
+class FramePublisher {
+ public:
+  // Starts the thread. Throws Error if the topics cannot be made. `session` is stamped on all.
+  FramePublisher(Participant& participant, const std::string& world, Outbox& outbox,
+                 std::vector<BodyInfo> scene, std::uint64_t session);
+  ~FramePublisher() { stop(); }
+
+  // Sends what is left in the outbox and ends the thread.
+  void stop();
+
+  Elapsed elapsed() const;  // time spent writing; from any thread
+
+ private:
+  void run(const std::stop_token& stop);
+  void send();
+  void send_poses();
+  void write_poses();
+
+  Outbox& outbox_;
+  std::uint64_t session_;
+  std::vector<BodyInfo> scene_;
+  Publisher<BodyInfo> scene_topic_;
+  Publisher<PoseSnapshot> poses_topic_;
+  Publisher<RunReport> report_topic_;
+  Publisher<Reply> reply_topic_;
+
+  PoseSnapshot snapshot_;  // the newest taken
+  std::vector<Reply> replies_;
+  RunReport report_;
+  int readers_ = 0;  // of poses, at the last look
+
+  mutable std::mutex mutex_;
+  Elapsed elapsed_;  // under the mutex
+
+  std::jthread thread_;  // last: ends before what it uses
+};
+
+}  // namespace poinsot

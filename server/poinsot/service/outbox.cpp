@@ -1,0 +1,101 @@
+#include "poinsot/service/outbox.h"
+
+#include <utility>
+
+namespace poinsot {
+
+Outbox::Outbox(std::size_t bodies) {
+  for (PoseSnapshot& snapshot : ring_) snapshot.bodies.reserve(bodies);
+  replies_.reserve(kReplies);
+}
+
+void Outbox::push(const PoseSnapshot& snapshot) {
+  bool wake;
+  {
+    const std::lock_guard lock(mutex_);
+    wake = poses_wanted_;
+    if (!poses_wanted_) count_ = 0;
+    if (count_ == kSnapshots) {
+      oldest_ = (oldest_ + 1) % kSnapshots;
+      --count_;
+      ++snapshots_dropped_;
+    }
+    ring_[(oldest_ + count_) % kSnapshots] = snapshot;
+    ++count_;
+  }
+  if (wake) filled_.notify_one();
+}
+
+void Outbox::push(Reply reply) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (replies_.size() >= kReplies) {
+      ++replies_dropped_;
+      return;
+    }
+    replies_.push_back(std::move(reply));
+  }
+  filled_.notify_one();
+}
+
+void Outbox::push(const RunReport& report) {
+  {
+    const std::lock_guard lock(mutex_);
+    report_ = report;
+    report_is_new_ = true;
+  }
+  filled_.notify_one();
+}
+
+bool Outbox::anything_to_send() const {
+  return (poses_wanted_ && count_ > 0) || !replies_.empty() || report_is_new_;
+}
+
+void Outbox::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout) {
+  std::unique_lock lock(mutex_);
+  filled_.wait_for(lock, stop, timeout, [&] { return anything_to_send(); });
+}
+
+bool Outbox::take(PoseSnapshot& snapshot) {
+  const std::lock_guard lock(mutex_);
+  if (count_ == 0) return false;
+  std::swap(snapshot, ring_[oldest_]);
+  oldest_ = (oldest_ + 1) % kSnapshots;
+  --count_;
+  return true;
+}
+
+bool Outbox::take(std::vector<Reply>& replies) {
+  replies.clear();
+  const std::lock_guard lock(mutex_);
+  std::swap(replies, replies_);
+  return !replies.empty();
+}
+
+bool Outbox::take(RunReport& report) {
+  const std::lock_guard lock(mutex_);
+  report = report_;
+  return std::exchange(report_is_new_, false);
+}
+
+void Outbox::set_poses_wanted(bool wanted) {
+  const std::lock_guard lock(mutex_);
+  poses_wanted_ = wanted;
+}
+
+RunReport Outbox::newest_report() const {
+  const std::lock_guard lock(mutex_);
+  return report_;
+}
+
+std::uint64_t Outbox::snapshots_dropped() const {
+  const std::lock_guard lock(mutex_);
+  return snapshots_dropped_;
+}
+
+std::uint64_t Outbox::replies_dropped() const {
+  const std::lock_guard lock(mutex_);
+  return replies_dropped_;
+}
+
+}  // namespace poinsot

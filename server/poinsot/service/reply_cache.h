@@ -1,0 +1,45 @@
+// Reply cache: a command that comes again, with the same (client, seq), gets the reply it got
+// before and is not obeyed again. Bounded: the oldest replies are forgotten.
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <utility>
+
+#include "poinsot/protocol/wrench_command.h"
+
+namespace poinsot {
+
+class ReplyCache {
+ public:
+  // At 60 Hz with a full inbox in every frame this is four frames; with one push per second, an
+  // hour. A client that resends does so within a second.
+  static constexpr std::size_t kCapacity = 4096;
+
+  // The reply to (client, seq); nothing if it is not known (any more).
+  const Reply* find(std::uint64_t client, std::uint64_t seq) const {
+    const auto found = replies_.find({client, seq});
+    return found == replies_.end() ? nullptr : &found->second;
+  }
+
+  void insert(const Reply& reply) {
+    const Key key{reply.client, reply.seq};
+    if (!replies_.try_emplace(key, reply).second) return;
+    order_.push_back(key);
+    if (order_.size() <= kCapacity) return;
+    replies_.erase(order_.front());
+    order_.pop_front();
+  }
+
+  std::size_t size() const { return replies_.size(); }
+
+ private:
+  using Key = std::pair<std::uint64_t, std::uint64_t>;  // client, seq
+
+  std::map<Key, Reply> replies_;
+  std::deque<Key> order_;  // of insertion
+};
+
+}  // namespace poinsot

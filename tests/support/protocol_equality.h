@@ -1,0 +1,128 @@
+// Equality of protocol structs, field by field and bit by bit: what crosses the bus must not
+// change.
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "poinsot/protocol/body_info.h"
+#include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/pose_snapshot.h"
+#include "poinsot/protocol/run_control.h"
+#include "poinsot/protocol/wrench_command.h"
+
+namespace poinsot {
+
+inline void expect_same(const BodyState& a, const BodyState& b) {
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.orientation.coeffs(), b.orientation.coeffs());
+  EXPECT_EQ(a.linear_velocity, b.linear_velocity);
+  EXPECT_EQ(a.angular_velocity, b.angular_velocity);
+}
+
+inline void expect_same(const PoseSnapshot& a, const PoseSnapshot& b) {
+  EXPECT_EQ(a.session, b.session);
+  EXPECT_EQ(a.epoch, b.epoch);
+  EXPECT_EQ(a.frame, b.frame);
+  EXPECT_EQ(a.sim_time_ns, b.sim_time_ns);
+  EXPECT_EQ(a.publish_time_ns, b.publish_time_ns);
+  EXPECT_EQ(a.state_hash, b.state_hash);
+  ASSERT_EQ(a.bodies.size(), b.bodies.size());
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) expect_same(a.bodies[i], b.bodies[i]);
+}
+
+inline void expect_same(const Pose& a, const Pose& b) {
+  EXPECT_EQ(a.c, b.c);
+  EXPECT_EQ(a.q.coeffs(), b.q.coeffs());
+}
+
+inline void expect_same(const BodyInfo& a, const BodyInfo& b) {
+  EXPECT_EQ(a.session, b.session);
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.index, b.index);
+  EXPECT_EQ(a.count, b.count);
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.is_static, b.is_static);
+  EXPECT_EQ(a.mass_properties.mass, b.mass_properties.mass);
+  EXPECT_EQ(a.mass_properties.center_of_mass, b.mass_properties.center_of_mass);
+  EXPECT_EQ(a.mass_properties.J, b.mass_properties.J);
+  expect_same(a.pose, b.pose);
+  EXPECT_EQ(a.material.friction, b.material.friction);
+  EXPECT_EQ(a.material.restitution, b.material.restitution);
+  ASSERT_EQ(a.shapes.size(), b.shapes.size());
+  for (std::size_t i = 0; i < a.shapes.size(); ++i) {
+    EXPECT_EQ(a.shapes[i].shape.index(), b.shapes[i].shape.index());
+    expect_same(a.shapes[i].pose, b.shapes[i].pose);
+  }
+}
+
+inline void expect_same(const Elapsed& a, const Elapsed& b) {
+  EXPECT_EQ(a.wall_s, b.wall_s);
+  EXPECT_EQ(a.cpu_s, b.cpu_s);
+}
+
+inline void expect_same(const RunReport& a, const RunReport& b) {
+  EXPECT_EQ(a.session, b.session);
+  EXPECT_EQ(a.epoch, b.epoch);
+  EXPECT_EQ(a.state, b.state);
+  EXPECT_EQ(a.frame.frame, b.frame.frame);
+  EXPECT_EQ(a.frame.sim_time, b.frame.sim_time);
+  EXPECT_EQ(a.frame.bodies, b.frame.bodies);
+  EXPECT_EQ(a.frame.contacts, b.frame.contacts);
+  EXPECT_EQ(a.frame.quarantined, b.frame.quarantined);
+  EXPECT_EQ(a.frame.energy, b.frame.energy);
+  EXPECT_EQ(a.frame.energy_error, b.frame.energy_error);
+  EXPECT_EQ(a.frame.push_out_energy, b.frame.push_out_energy);
+  EXPECT_EQ(a.frame.max_penetration, b.frame.max_penetration);
+  EXPECT_EQ(a.frame.flags, b.frame.flags);
+  EXPECT_EQ(a.frame_rate, b.frame_rate);
+  EXPECT_EQ(a.real_time_factor, b.real_time_factor);
+  EXPECT_EQ(a.state_hash, b.state_hash);
+  EXPECT_EQ(a.overruns, b.overruns);
+  EXPECT_EQ(a.commands_accepted, b.commands_accepted);
+  EXPECT_EQ(a.commands_refused, b.commands_refused);
+  EXPECT_EQ(a.snapshots_dropped, b.snapshots_dropped);
+  expect_same(a.times.presentation, b.times.presentation);
+  expect_same(a.times.collision, b.times.collision);
+  expect_same(a.times.contact, b.times.contact);
+  expect_same(a.times.simulation, b.times.simulation);
+  expect_same(a.times.publishing, b.times.publishing);
+}
+
+inline void expect_same(const WrenchCommand& a, const WrenchCommand& b) {
+  EXPECT_EQ(a.client, b.client);
+  EXPECT_EQ(a.seq, b.seq);
+  EXPECT_EQ(a.epoch, b.epoch);
+  EXPECT_EQ(a.body, b.body);
+  EXPECT_EQ(a.body_name, b.body_name);
+  EXPECT_EQ(a.force, b.force);
+  EXPECT_EQ(a.torque, b.torque);
+  EXPECT_EQ(a.axes, b.axes);
+  EXPECT_EQ(a.point, b.point);
+  EXPECT_EQ(a.point_frame, b.point_frame);
+  EXPECT_EQ(a.hold, b.hold);
+  EXPECT_EQ(a.duration_ns, b.duration_ns);
+  EXPECT_EQ(a.start_frame, b.start_frame);
+}
+
+inline void expect_same(const RunControl& a, const RunControl& b) {
+  EXPECT_EQ(a.client, b.client);
+  EXPECT_EQ(a.seq, b.seq);
+  EXPECT_EQ(a.epoch, b.epoch);
+  EXPECT_EQ(a.action, b.action);
+  EXPECT_EQ(a.frames, b.frames);
+}
+
+inline void expect_same(const Reply& a, const Reply& b) {
+  EXPECT_EQ(a.client, b.client);
+  EXPECT_EQ(a.seq, b.seq);
+  EXPECT_EQ(a.epoch, b.epoch);
+  EXPECT_EQ(a.code, b.code);
+  EXPECT_EQ(a.message, b.message);
+  EXPECT_EQ(a.first_frame, b.first_frame);
+  EXPECT_EQ(a.last_frame, b.last_frame);
+  EXPECT_EQ(a.state_hash, b.state_hash);
+}
+
+}  // namespace poinsot

@@ -1,0 +1,112 @@
+// One message of each type of the protocol in which every field differs from its default and from
+// the other fields, so that a field that is lost or swapped on the way shows.
+
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "poinsot/protocol/body_info.h"
+#include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/pose_snapshot.h"
+#include "poinsot/protocol/run_control.h"
+#include "poinsot/protocol/wrench_command.h"
+
+namespace poinsot::sample {
+
+inline const Quat kTurned(0.5, -0.5, 0.5, 0.5);  // w x y z
+
+inline BodyState body_state(std::uint32_t i) {
+  const double d = i;
+  return {{i, i + 1}, {d, d + 0.25, -d}, kTurned, {1 / (d + 1), 2, 3}, {-4, 5e-300, 6 + d}};
+}
+
+inline PoseSnapshot poses(std::uint64_t frame, std::size_t bodies) {
+  PoseSnapshot poses{.session = 11,
+                     .epoch = 12,
+                     .frame = frame,
+                     .sim_time_ns = 14,
+                     .publish_time_ns = 15,
+                     .state_hash = 0xFEDCBA9876543210u,
+                     .bodies = {}};
+  for (std::uint32_t i = 0; i < bodies; ++i) poses.bodies.push_back(body_state(i));
+  return poses;
+}
+
+inline BodyInfo body_info(std::uint32_t index, std::uint32_t count) {
+  BodyInfo info;
+  info.session = 21;
+  info.id = {index + 100, 3};
+  info.index = index;
+  info.count = count;
+  info.name = "Körper " + std::to_string(index);
+  info.is_static = true;
+  info.mass_properties.mass = 2.5;
+  info.mass_properties.center_of_mass = {0.1, 0.2, 0.3};
+  info.mass_properties.J << 1, 0.1, 0.2, 0.1, 2, 0.3, 0.2, 0.3, 2.5;
+  info.pose = {{7, 8, 9}, kTurned};
+  info.material = {.friction = 0.75, .restitution = 0.25};
+  info.shapes = {{Box{{1, 2, 3}}, {{0.5, 0, 0}, kTurned}}};
+  return info;
+}
+
+inline RunReport report() {
+  RunReport report;
+  report.session = 31;
+  report.epoch = 32;
+  report.state = RunState::paused;
+  report.frame = {.frame = 33,
+                  .sim_time = 34.5,
+                  .bodies = 35,
+                  .contacts = 36,
+                  .quarantined = 37,
+                  .energy = -38.5,
+                  .energy_error = 39e-12,
+                  .push_out_energy = 40.5,
+                  .max_penetration = 41e-6,
+                  .flags = FrameFlag::inbox_full | FrameFlag::overrun};
+  report.frame_rate = 42.5;
+  report.real_time_factor = 43.5;
+  report.state_hash = 44;
+  report.overruns = 45;
+  report.commands_accepted = 46;
+  report.commands_refused = 47;
+  report.snapshots_dropped = 48;
+  report.times = {{51, 52}, {53, 54}, {55, 56}, {57, 58}, {59, 60}};
+  return report;
+}
+
+inline WrenchCommand wrench() {
+  WrenchCommand command;
+  command.client = 0xABCDEF0123456789u;
+  command.seq = 62;
+  command.epoch = 63;
+  command.body = {64, 65};
+  command.body_name = "box";
+  command.force = {66, 67, -68};
+  command.torque = {69, -70, 71};
+  command.axes = Axes::body;
+  command.point = {-72, 73, 74};
+  command.point_frame = PointFrame::world;
+  command.hold = Hold::duration;
+  command.duration_ns = 75;
+  command.start_frame = 76;
+  return command;
+}
+
+inline RunControl control() {
+  return {.client = 81, .seq = 82, .epoch = 83, .action = ControlAction::step, .frames = 84};
+}
+
+inline Reply reply() {
+  return {.client = 91,
+          .seq = 92,
+          .epoch = 93,
+          .code = ResultCode::too_late,
+          .message = "start_frame 3 has passed",
+          .first_frame = 94,
+          .last_frame = kForever,
+          .state_hash = 95};
+}
+
+}  // namespace poinsot::sample

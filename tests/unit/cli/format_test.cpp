@@ -1,0 +1,113 @@
+#include "poinsot/cli/format.h"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "unit/cli/sample.h"
+
+namespace poinsot {
+namespace {
+
+TEST(PoseLines, HaveOneFieldPerTitle) {
+  std::istringstream title{std::string(kPoseLinesTitle)};
+  std::string mark;
+  title >> mark;  // '#'
+  const std::string text = pose_lines(sample::poses(), Roster(sample::bodies(), {"box"}), 60);
+  std::istringstream line(text);
+  std::string name, value;
+  int titles = 0, values = 0;
+  while (title >> name) ++titles;
+  while (line >> value) ++values;
+  EXPECT_EQ(titles, values) << text;
+  EXPECT_EQ(text, "12 0.2 box 0.1 -2 1e-17 0.5 -0.5 0.5 0.5 1 0 -9.81 0 0 0.333333333\n");
+}
+
+TEST(PoseLines, QuoteNamesWithSpaces) {
+  EXPECT_NE(
+      pose_lines(sample::poses(), Roster(sample::bodies(), {}), 60).find("12 0.2 \"big ball\" "),
+      std::string::npos);
+}
+
+WrenchCommand half_a_second_up() {
+  WrenchCommand command;
+  command.body_name = "box";
+  command.force = {0, 0, 50};
+  command.hold = Hold::duration;
+  return command;
+}
+
+TEST(PushText, NamesFramesTimesForceAxesAndPoint) {
+  Reply reply;
+  reply.first_frame = 121;
+  reply.last_frame = 150;
+  EXPECT_EQ(push_text(half_a_second_up(), reply, 60),
+            "box: frames 121 to 150 (30 frames), 2.000 s to 2.500 s: force (0, 0, 50) N at the "
+            "centre of mass, world axes\n");
+}
+
+TEST(PushText, NamesThePointAndItsFrame) {
+  WrenchCommand command = half_a_second_up();
+  command.torque = {0, 1, 0};
+  command.axes = Axes::body;
+  command.point = {0.5, 0, 0};
+  command.point_frame = PointFrame::body;
+  Reply reply;
+  reply.first_frame = reply.last_frame = 1;
+  EXPECT_EQ(push_text(command, reply, 60),
+            "box: frame 1, 0.000 s to 0.017 s: force (0, 0, 50) N at the body's point (0.5, 0, 0) "
+            "m, torque (0, 1, 0) N m, body axes\n");
+}
+
+TEST(PushText, SaysThatAHeldPushHasNoEnd) {
+  Reply reply;
+  reply.first_frame = 61;
+  reply.last_frame = kForever;
+  EXPECT_NE(push_text(half_a_second_up(), reply, 60).find("frames 61 until cleared (from 1.000 s)"),
+            std::string::npos);
+}
+
+TEST(PushText, SaysFromWhenAClearedPushIsGone) {
+  WrenchCommand command;
+  command.body_name = "box";
+  command.hold = Hold::clear;
+  Reply reply;
+  reply.first_frame = reply.last_frame = 61;
+  EXPECT_EQ(push_text(command, reply, 60), "box: cleared from frame 61 on (1.000 s)\n");
+}
+
+TEST(RefusalText, GivesReasonAndCode) {
+  Reply reply;
+  reply.code = ResultCode::not_found;
+  reply.message = "no body 'bax', did you mean 'box'?";
+  EXPECT_EQ(refusal_text("push", reply),
+            "poinsot: push refused: no body 'bax', did you mean 'box'? (NOT_FOUND)\n");
+}
+
+TEST(ControlText, NamesFrameTimeEpochAndHash) {
+  Reply reply;
+  reply.epoch = 2;
+  reply.last_frame = 30;
+  reply.state_hash = 0xAB;
+  EXPECT_EQ(control_text("step", reply, 60),
+            "step: frame 30 (0.500 s), epoch 2, state hash 00000000000000ab\n");
+}
+
+TEST(StatusText, NamesStateAndFlags) {
+  RunReport report;
+  report.state = RunState::playing;
+  report.frame.flags = FrameFlag::overrun;
+  const std::string text = status_text("push_me", report);
+  EXPECT_NE(text.find("world        push_me\nstate        playing\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("flags        overrun\n"), std::string::npos) << text;
+}
+
+TEST(ListText, GivesNameMassAndShapeOfEachBody) {
+  const std::string text = list_text("push_me", {}, sample::bodies());
+  EXPECT_NE(text.find("3 bodies\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  table                static       box\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  big ball             0.25 kg      sphere\n"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace poinsot

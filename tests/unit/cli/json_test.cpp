@@ -1,0 +1,158 @@
+#include "poinsot/cli/json.h"
+
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "unit/cli/sample.h"
+
+namespace poinsot {
+namespace {
+
+using nlohmann::json;
+
+std::set<std::string> keys(const json& object) {
+  std::set<std::string> names;
+  for (const auto& [key, value] : object.items()) names.insert(key);
+  return names;
+}
+
+// One line of JSON.
+json parsed(const std::string& text) {
+  EXPECT_EQ(text.find('\n'), text.size() - 1) << text;
+  return json::parse(text);
+}
+
+json poses_of(const PoseSnapshot& poses, const std::vector<std::string>& wanted = {}) {
+  return parsed(pose_json(poses, Roster(sample::bodies(), wanted), 60));
+}
+
+TEST(PoseJson, HasExactlyTheDocumentedKeys) {
+  const json frame = poses_of(sample::poses());
+  EXPECT_EQ(keys(frame), (std::set<std::string>{"frame", "time", "bodies"}));
+  ASSERT_EQ(frame["bodies"].size(), 2u);
+  for (const json& body : frame["bodies"]) {
+    EXPECT_EQ(keys(body), (std::set<std::string>{"name", "position", "orientation",
+                                                 "linear_velocity", "angular_velocity"}));
+    EXPECT_EQ(keys(body["orientation"]), (std::set<std::string>{"x", "y", "z", "w"}));
+    for (const char* vector : {"position", "linear_velocity", "angular_velocity"})
+      EXPECT_EQ(body[vector].size(), 3u) << vector;
+  }
+}
+
+TEST(PoseJson, KeepsEveryBit) {
+  const json frame = poses_of(sample::poses());
+  EXPECT_EQ(frame["frame"], 12);
+  EXPECT_EQ(frame["time"].get<double>(), 0.2);
+  const json& box = frame["bodies"][0];
+  EXPECT_EQ(box["name"], "box");
+  EXPECT_EQ(box["position"][0].get<double>(), 0.1);
+  EXPECT_EQ(box["position"][2].get<double>(), 1e-17);
+  EXPECT_EQ(box["angular_velocity"][2].get<double>(), 1.0 / 3);
+  EXPECT_EQ(box["orientation"]["w"].get<double>(), 0.5);
+  EXPECT_EQ(box["orientation"]["x"].get<double>(), 0.5);
+  EXPECT_EQ(box["orientation"]["y"].get<double>(), -0.5);
+}
+
+TEST(PoseJson, WritesWholeNumbersAsFloatingPoint) {
+  const json frame = poses_of(sample::poses());
+  EXPECT_TRUE(frame["bodies"][0]["position"][1].is_number_float());
+  EXPECT_EQ(frame["bodies"][0]["position"][1].get<double>(), -2.0);
+  EXPECT_TRUE(frame["bodies"][1]["position"][0].is_number_float());
+}
+
+TEST(PoseJson, StaysJsonWhenANumberIsNotFinite) {
+  PoseSnapshot poses = sample::poses();
+  poses.bodies[0].position.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(poses_of(poses)["bodies"][0]["position"][0].is_null());
+}
+
+TEST(PoseJson, EscapesNames) {
+  std::vector<BodyInfo> bodies = sample::bodies();
+  bodies[1].name = "a \"quoted\" näme\n";
+  const json frame = parsed(pose_json(sample::poses(), Roster(bodies, {}), 60));
+  EXPECT_EQ(frame["bodies"][0]["name"], bodies[1].name);
+}
+
+TEST(PoseJson, HoldsTheWantedBodiesOnly) {
+  const json frame = poses_of(sample::poses(), {"big ball"});
+  ASSERT_EQ(frame["bodies"].size(), 1u);
+  EXPECT_EQ(frame["bodies"][0]["name"], "big ball");
+}
+
+WrenchCommand push_of_the_box() {
+  WrenchCommand command;
+  command.body_name = "box";
+  return command;
+}
+
+TEST(PushJson, NamesFramesAndTheTimesOfTheirBoundaries) {
+  Reply reply;
+  reply.epoch = 3;
+  reply.first_frame = 121;
+  reply.last_frame = 150;
+  const json answer = parsed(push_json(push_of_the_box(), reply, 60));
+  EXPECT_EQ(answer["body"], "box");
+  EXPECT_EQ(answer["code"], "OK");
+  EXPECT_EQ(answer["epoch"], 3);
+  EXPECT_EQ(answer["first_frame"], 121);
+  EXPECT_EQ(answer["last_frame"], 150);
+  EXPECT_EQ(answer["start_time"].get<double>(), 2.0);
+  EXPECT_EQ(answer["end_time"].get<double>(), 2.5);
+}
+
+TEST(PushJson, HasNoEndUntilCleared) {
+  Reply reply;
+  reply.first_frame = 1;
+  reply.last_frame = kForever;
+  const json answer = parsed(push_json(push_of_the_box(), reply, 60));
+  EXPECT_TRUE(answer["last_frame"].is_null());
+  EXPECT_TRUE(answer["end_time"].is_null());
+}
+
+TEST(PushJson, CarriesTheReasonOfARefusalAndNoFrames) {
+  Reply reply;
+  reply.code = ResultCode::not_found;
+  reply.message = "no body 'bax'";
+  const json answer = parsed(push_json(push_of_the_box(), reply, 60));
+  EXPECT_EQ(answer["code"], "NOT_FOUND");
+  EXPECT_EQ(answer["message"], "no body 'bax'");
+  EXPECT_FALSE(answer.contains("first_frame"));
+}
+
+TEST(ControlJson, NamesTheFrameReachedAndItsHash) {
+  Reply reply;
+  reply.epoch = 1;
+  reply.last_frame = 30;
+  reply.state_hash = 0xFEDCBA9876543210;
+  const json answer = parsed(control_json("step", reply, 60));
+  EXPECT_EQ(answer["action"], "step");
+  EXPECT_EQ(answer["frame"], 30);
+  EXPECT_EQ(answer["time"].get<double>(), 0.5);
+  EXPECT_EQ(answer["state_hash"], "fedcba9876543210");
+}
+
+TEST(StatusJson, NamesStateAndFlags) {
+  RunReport report;
+  report.state = RunState::paused;
+  report.frame.flags = FrameFlag::overrun | FrameFlag::inbox_full;
+  report.times.collision.cpu_s = 1.5;
+  const json status = parsed(status_json("push_me", report));
+  EXPECT_EQ(status["world"], "push_me");
+  EXPECT_EQ(status["state"], "paused");
+  EXPECT_EQ(status["flags"], json({"inbox_full", "overrun"}));
+  EXPECT_EQ(status["cpu_s"]["collision"], 1.5);
+}
+
+TEST(ListJson, GivesNoMassToAStaticBody) {
+  const json list = parsed(list_json("push_me", {}, sample::bodies()));
+  EXPECT_EQ(list["bodies"].size(), 3u);
+  EXPECT_EQ(list["bodies"][0]["static"], true);
+  EXPECT_TRUE(list["bodies"][0]["mass"].is_null());
+  EXPECT_EQ(list["bodies"][1]["mass"], 2.0);
+}
+
+}  // namespace
+}  // namespace poinsot

@@ -1,0 +1,52 @@
+// The same scene gives the same bits.
+
+#include <gtest/gtest.h>
+
+#include "support/run.h"
+#include "support/scene_builder.h"
+
+namespace poinsot {
+namespace {
+
+Scene heap() {
+  std::vector<BodyDef> bodies = {test::ground()};
+  const std::vector<Shape> shapes = {Box{{0.5, 0.4, 0.3}}, Sphere{0.2},
+                                     Cylinder{0.2, 0.4},   Capsule{0.15, 0.3},
+                                     Cone{0.2, 0.4},       Ellipsoid{{0.2, 0.25, 0.3}}};
+  for (int i = 0; i < 48; ++i) {
+    BodyDef def = test::body("body" + std::to_string(i), shapes[static_cast<std::size_t>(i) % 6],
+                             {0.55 * (i % 4), 0.55 * (i / 4 % 4), 0.5 + 0.7 * (i / 16)});
+    def.pose.q = Quat(1, 0.05 * (i % 3), 0.04 * (i % 5), 0.03 * (i % 7)).normalized();
+    bodies.push_back(def);
+  }
+  return test::scene(std::move(bodies));
+}
+
+std::uint64_t fingerprint(const CollisionLayer& layer) {
+  Hash64 hash;
+  hash.add({layer.world().y.data(), static_cast<std::size_t>(layer.world().y.size())});
+  layer.hash_into(hash);
+  return hash.value();
+}
+
+TEST(Determinism, TwoRunsOfAHeapAgreeInEveryBitOfEveryFrame) {
+  CollisionLayer first(heap()), second(heap());
+  for (int n = 1; n <= 180; ++n) {
+    first.advance_to(n / 60.0);
+    second.advance_to(n / 60.0);
+    ASSERT_EQ(fingerprint(first), fingerprint(second)) << "frame " << n;
+  }
+}
+
+TEST(Determinism, ABystanderFarAwayDoesNotChangeTheHeap) {
+  Scene with = heap();
+  with.bodies.push_back(test::body("bystander", Sphere{1}, {1000, 0, 50}));
+  CollisionLayer first(heap()), second(with);
+  test::run_until(first, 1);
+  test::run_until(second, 1);
+  const Eigen::Index n = first.world().size();
+  EXPECT_EQ(first.world().y, second.world().y.leftCols(n));
+}
+
+}  // namespace
+}  // namespace poinsot
