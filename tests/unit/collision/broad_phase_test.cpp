@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/allocation_counter.h"
 #include "support/geometry.h"
 
 namespace poinsot::test {
@@ -143,6 +144,23 @@ TEST(BroadPhase, AHugeGroundMeetsTheSmallBodiesThatStandOnIt) {
   const std::vector<double> reach(crowd.colliders.size(), 0.001);
   const auto pairs = broad_phase.pairs(crowd.boxes(), reach);
   EXPECT_EQ(pairs.size(), 200u);
+}
+
+TEST(BroadPhase, SettledMotionDoesNotAllocate) {
+  if (!can_count_allocations()) GTEST_SKIP() << "a sanitizer owns malloc";
+  Crowd crowd = random_crowd(9, 200);
+  for (Vec3& v : crowd.velocity) v *= 0.02;
+  BroadPhase broad_phase(crowd.colliders, crowd.moves);
+  const std::vector<double> reach(crowd.colliders.size(), 1e-3);
+  std::size_t before = 0;
+  for (int step = 0; step < 400; ++step) {
+    const std::vector<Aabb> boxes = crowd.boxes();
+    const std::size_t outside = allocations();
+    broad_phase.pairs(boxes, reach);
+    if (step >= 50) before += allocations() - outside;
+    crowd.step(0.01);
+  }
+  EXPECT_EQ(before, 0u);
 }
 
 TEST(BroadPhase, OneBodyOrNoneHasNoPairs) {
