@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -12,15 +11,11 @@ namespace {
 
 constexpr int kEpaPoints = kEpaFaces / 2 + 4;
 
-enum class Side : std::uint8_t { unknown, seen, unseen };
-
 struct Face {
   std::array<int, 3> corner;     // counter-clockwise seen from outside
   std::array<int, 3> neighbour;  // across the edge from corner e to the next
   Vec3 normal;                   // unit, outward
   double distance;               // [m] of its plane from the origin
-  bool alive;
-  Side side;  // of a point to be added
 };
 
 // A convex polytope about the origin, grown point by point. Fixed capacity: no allocation.
@@ -41,20 +36,128 @@ class Polytope {
   }
 
   int nearest() const {
-    int best = -1;
-    for (int f = 0; f < face_count_; ++f)
-      if (face(f).alive && (best < 0 || face(f).distance < face(best).distance)) best = f;
-    return best;
+    const auto begin = distance_.begin();
+    return static_cast<int>(std::min_element(begin, begin + face_count_) - begin);
   }
 
   // Adds a point outside of a face: all faces that see it are replaced by a fan over their horizon.
   // False when out of room or when rounding leaves no proper horizon; the polytope is then used up.
   bool grow(int from, const DifferencePoint& p) {
-    if (point_count_ == kEpaPoints || !split(from, p.w) || !find_horizon()) return false;
+    if (point_count_ == kEpaPoints) return false;
+    see(from, p.w);
+    if (!find_horizon()) {  // seen faces in a ring about unseen ones, flat with the point
+      see_islands(p.w);
+      if (!find_horizon()) return false;
+    }
+    for (int i = 0; i < seen_count_; ++i) kill(seen_[static_cast<std::size_t>(i)]);
     points_[static_cast<std::size_t>(point_count_)] = p;
-    const std::span<const Edge> loop(horizon_.data(), static_cast<std::size_t>(horizon_count_));
+    return fan_out();
+  }
+
+  const DifferencePoint& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  const Face& face(int f) const { return faces_[static_cast<std::size_t>(f)]; }
+
+ private:
+  static constexpr double kDead = std::numeric_limits<double>::infinity();
+  struct Edge {
+    int from, to;
+    int beyond;  // the unseen face across it
+  };
+
+  Face& face(int f) { return faces_[static_cast<std::size_t>(f)]; }
+  const Vec3& w(int i) const { return point(i).w; }
+  bool is_alive(int f) const { return distance_[static_cast<std::size_t>(f)] != kDead; }
+  bool is_seen(int f) const { return seen_at_[static_cast<std::size_t>(f)] == point_count_; }
+  double height(int f, const Vec3& p) const { return face(f).normal.dot(p) - face(f).distance; }
+
+  // The new face, or −1 without room or area.
+  int add(int i, int j, int k) {
+    const Vec3 n = (w(j) - w(i)).cross(w(k) - w(i));
+    const double length = n.norm();
+    if (length <= rounding_ * rounding_) return -1;
+    if (free_count_ == 0 && face_count_ == kEpaFaces) return -1;
+    const int f = free_count_ > 0 ? free_[static_cast<std::size_t>(--free_count_)] : face_count_++;
+    const Vec3 normal = n / length;
+    face(f) = {{i, j, k}, {-1, -1, -1}, normal, normal.dot(w(i))};
+    distance_[static_cast<std::size_t>(f)] = face(f).distance;
+    seen_at_[static_cast<std::size_t>(f)] = 0;
+    return f;
+  }
+  void kill(int f) {
+    distance_[static_cast<std::size_t>(f)] = kDead;
+    free_[static_cast<std::size_t>(free_count_++)] = f;
+  }
+
+  void join(int f, int g) {
+    for (std::size_t e = 0; e < 3; ++e)
+      for (std::size_t d = 0; d < 3; ++d)
+        if (face(f).corner[e] == face(g).corner[(d + 1) % 3] &&
+            face(f).corner[(e + 1) % 3] == face(g).corner[d])
+          face(f).neighbour[e] = g;
+  }
+
+  void mark_seen(int f) {
+    seen_at_[static_cast<std::size_t>(f)] = point_count_;
+    seen_[static_cast<std::size_t>(seen_count_++)] = f;
+  }
+
+  // Lists the faces that see the point and connect to `from`.
+  void see(int from, const Vec3& p) {
+    seen_count_ = 0;
+    mark_seen(from);
+    for (int i = 0; i < seen_count_; ++i)
+      for (const int next : face(seen_[static_cast<std::size_t>(i)]).neighbour)
+        if (!is_seen(next) && height(next, p) > rounding_) mark_seen(next);
+  }
+
+  // Also lists what does not connect to the far side over unseen faces.
+  void see_islands(const Vec3& p) {
+    int far = -1;
+    for (int f = 0; f < face_count_; ++f)
+      if (is_alive(f) && !is_seen(f) && (far < 0 || height(f, p) < height(far, p))) far = f;
+    if (far < 0) return;
+    std::array<bool, static_cast<std::size_t>(kEpaFaces)> is_far{};
+    std::array<int, static_cast<std::size_t>(kEpaFaces)> open;
+    int count = 0;
+    open[static_cast<std::size_t>(count++)] = far;
+    is_far[static_cast<std::size_t>(far)] = true;
+    for (int i = 0; i < count; ++i) {
+      for (const int next : face(open[static_cast<std::size_t>(i)]).neighbour) {
+        if (is_seen(next) || is_far[static_cast<std::size_t>(next)]) continue;
+        is_far[static_cast<std::size_t>(next)] = true;
+        open[static_cast<std::size_t>(count++)] = next;
+      }
+    }
+    for (int f = 0; f < face_count_; ++f)
+      if (is_alive(f) && !is_seen(f) && !is_far[static_cast<std::size_t>(f)]) mark_seen(f);
+  }
+
+  // The edges between seen and unseen faces, head to tail; false if they are not one closed loop.
+  bool find_horizon() {
+    horizon_count_ = 0;
+    for (int i = 0; i < seen_count_; ++i) {
+      const Face& f = face(seen_[static_cast<std::size_t>(i)]);
+      for (std::size_t e = 0; e < 3; ++e)
+        if (!is_seen(f.neighbour[e]))
+          horizon_[static_cast<std::size_t>(horizon_count_++)] = {
+              f.corner[e], f.corner[(e + 1) % 3], f.neighbour[e]};
+    }
+    if (horizon_count_ < 3) return false;
+    const auto begin = horizon_.begin(), end = begin + horizon_count_;
+    for (auto edge = begin; edge + 1 != end; ++edge) {
+      const auto next =
+          std::find_if(edge + 1, end, [&](const Edge& x) { return x.from == edge->to; });
+      if (next == end) return false;
+      std::swap(*(edge + 1), *next);
+    }
+    return (end - 1)->to == begin->from;
+  }
+
+  // New faces from the horizon to the newest point, joined to each other and to what is beyond.
+  bool fan_out() {
     int first = -1, last = -1;
-    for (const Edge& edge : loop) {
+    for (int i = 0; i < horizon_count_; ++i) {
+      const Edge& edge = horizon_[static_cast<std::size_t>(i)];
       const int fan = add(edge.from, edge.to, point_count_);
       if (fan < 0) return false;
       face(fan).neighbour = {edge.beyond, -1, last};
@@ -71,99 +174,14 @@ class Polytope {
     return true;
   }
 
-  const DifferencePoint& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
-  const Face& face(int f) const { return faces_[static_cast<std::size_t>(f)]; }
-
- private:
-  struct Edge {
-    int from, to;
-    int beyond;  // the unseen face across it
-  };
-
-  Face& face(int f) { return faces_[static_cast<std::size_t>(f)]; }
-  const Vec3& w(int i) const { return point(i).w; }
-
-  // The new face, or −1 without room or area.
-  int add(int i, int j, int k) {
-    const Vec3 n = (w(j) - w(i)).cross(w(k) - w(i));
-    const double length = n.norm();
-    if (length <= rounding_ * rounding_) return -1;
-    const Vec3 normal = n / length;
-    int slot = 0;
-    while (slot < face_count_ && face(slot).alive) ++slot;
-    if (slot == kEpaFaces) return -1;
-    face_count_ = std::max(face_count_, slot + 1);
-    face(slot) = {{i, j, k}, {-1, -1, -1}, normal, normal.dot(w(i)), true, Side::unknown};
-    return slot;
-  }
-
-  void join(int f, int g) {
-    for (std::size_t e = 0; e < 3; ++e)
-      for (std::size_t d = 0; d < 3; ++d)
-        if (face(f).corner[e] == face(g).corner[(d + 1) % 3] &&
-            face(f).corner[(e + 1) % 3] == face(g).corner[d])
-          face(f).neighbour[e] = g;
-  }
-
-  // Marks all faces that connect to `from` over faces that the test accepts.
-  void flood(int from, Side side, auto&& accepts) {
-    int open = 0;
-    face(from).side = side;
-    stack_[static_cast<std::size_t>(open++)] = from;
-    while (open > 0) {
-      for (const int next : face(stack_[static_cast<std::size_t>(--open)]).neighbour) {
-        if (face(next).side != Side::unknown || !accepts(face(next))) continue;
-        face(next).side = side;
-        stack_[static_cast<std::size_t>(open++)] = next;
-      }
-    }
-  }
-
-  // Splits the faces in those that see the point and those that do not, each in one piece, and lets
-  // the former die. Rounding may leave islands of unseen faces, flat with the point, among seen
-  // ones: what does not connect to the far side counts as seen.
-  bool split(int from, const Vec3& p) {
-    const auto height = [&](const Face& f) { return f.normal.dot(p) - f.distance; };
-    for (int f = 0; f < face_count_; ++f) face(f).side = Side::unknown;
-    flood(from, Side::seen, [&](const Face& f) { return height(f) > rounding_; });
-    int far = -1;
-    for (int f = 0; f < face_count_; ++f)
-      if (face(f).alive && face(f).side == Side::unknown &&
-          (far < 0 || height(face(f)) < height(face(far))))
-        far = f;
-    if (far < 0) return false;
-    flood(far, Side::unseen, [](const Face&) { return true; });
-    for (int f = 0; f < face_count_; ++f) face(f).alive &= face(f).side == Side::unseen;
-    return true;
-  }
-
-  // The edges between seen and unseen faces, head to tail; false if they are not one closed loop.
-  bool find_horizon() {
-    horizon_count_ = 0;
-    for (int f = 0; f < face_count_; ++f) {
-      if (!face(f).alive) continue;
-      for (std::size_t e = 0; e < 3; ++e)
-        if (!face(face(f).neighbour[e]).alive)
-          horizon_[static_cast<std::size_t>(horizon_count_++)] = {face(f).corner[(e + 1) % 3],
-                                                                  face(f).corner[e], f};
-    }
-    if (horizon_count_ < 3) return false;
-    const auto begin = horizon_.begin(), end = begin + horizon_count_;
-    for (auto edge = begin; edge + 1 != end; ++edge) {
-      const auto next =
-          std::find_if(edge + 1, end, [&](const Edge& x) { return x.from == edge->to; });
-      if (next == end) return false;
-      std::swap(*(edge + 1), *next);
-    }
-    return (end - 1)->to == begin->from;
-  }
-
   double rounding_;
   std::array<DifferencePoint, static_cast<std::size_t>(kEpaPoints)> points_;
   std::array<Face, static_cast<std::size_t>(kEpaFaces)> faces_;
+  std::array<double, static_cast<std::size_t>(kEpaFaces)> distance_;  // of faces; infinite: dead
+  std::array<int, static_cast<std::size_t>(kEpaFaces)> seen_at_;      // by which point, last
+  std::array<int, static_cast<std::size_t>(kEpaFaces)> seen_, free_;
   std::array<Edge, 3 * static_cast<std::size_t>(kEpaFaces)> horizon_;
-  std::array<int, static_cast<std::size_t>(kEpaFaces)> stack_;
-  int point_count_ = 0, face_count_ = 0, horizon_count_ = 0;
+  int point_count_ = 0, face_count_ = 0, seen_count_ = 0, free_count_ = 0, horizon_count_ = 0;
 };
 
 Vec3 across(const Vec3& along) {  // some unit vector perpendicular to a unit vector

@@ -47,7 +47,7 @@ double area(const Manifold& m) {
 TEST(PointSet, KeepsTheDeepestAndSpansTheRest) {
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
-    PointSet set(1e-9);
+    PointSet set(Vec3::UnitZ(), 1e-9);
     const int n = 1 + random.below(40);
     double deepest = 1;
     for (int k = 0; k < n; ++k) {
@@ -56,7 +56,7 @@ TEST(PointSet, KeepsTheDeepestAndSpansTheRest) {
       set.add({random.uniform(-1, 1), random.uniform(-1, 1), 0}, gap);
     }
     Manifold m;
-    set.reduce_into(Vec3::UnitZ(), m);
+    set.reduce_into(m);
     EXPECT_EQ(m.points[0].gap, deepest);
     EXPECT_LE(m.count, std::min(n, 4));
     EXPECT_GE(m.count, std::min(n, 3));
@@ -64,35 +64,35 @@ TEST(PointSet, KeepsTheDeepestAndSpansTheRest) {
 }
 
 TEST(PointSet, OverflowLosesTheShallowest) {
-  PointSet set(1e-9);
+  PointSet set(Vec3::UnitZ(), 1e-9);
   for (int k = 0; k < 100; ++k) set.add({std::cos(k), std::sin(k), 0}, 0.01 * ((37 * k) % 100));
   EXPECT_EQ(set.count(), PointSet::kCapacity);
   EXPECT_EQ(set.least_gap(), 0);
 }
 
 TEST(PointSet, AFullRectangleKeepsItsCorners) {
-  PointSet set(1e-9);
+  PointSet set(Vec3::UnitZ(), 1e-9);
   for (int i = 0; i <= 5; ++i)
     for (int j = 0; j <= 5; ++j) set.add({0.2 * i, 0.4 * j, 0}, 0);
   Manifold m;
-  set.reduce_into(Vec3::UnitZ(), m);
+  set.reduce_into(m);
   ASSERT_EQ(m.count, 4);
   EXPECT_NEAR(area(m), 2, 1e-12);
 }
 
 TEST(PointSet, PointsOnALineBecomeItsEnds) {
-  PointSet set(1e-9);
+  PointSet set(Vec3::UnitZ(), 1e-9);
   for (int i = 0; i <= 9; ++i) set.add({0.1 * i, 0.2 * i, 0}, 0);
   Manifold m;
-  set.reduce_into(Vec3::UnitZ(), m);
+  set.reduce_into(m);
   EXPECT_EQ(m.count, 2);
 }
 
 TEST(PointSet, RepeatedPointsCountOnce) {
-  PointSet set(1e-6);
+  PointSet set(Vec3::UnitZ(), 1e-6);
   for (int i = 0; i < 4; ++i) set.add({1e-8 * i, 0, 0}, 0);
   Manifold m;
-  set.reduce_into(Vec3::UnitZ(), m);
+  set.reduce_into(m);
   EXPECT_EQ(m.count, 1);
 }
 
