@@ -76,5 +76,14 @@ TEST(Worlds, ManyParticipantsOfThisHostAllFindEachOther) {
   }));
 }
 
+TEST(Worlds, AProcessThatJoinedAndLeftManyTimesIsStillMet) {
+  Participant daemon({.domain = test_domain()});
+  Publisher<RunReport> report(daemon, "patient");
+  constexpr int kJoins = 40;  // more than there are numbers of participants that are greeted
+  for (int i = 0; i < kJoins; ++i) Participant({.domain = test_domain()});
+  Participant observer({.domain = test_domain()});
+  EXPECT_TRUE(eventually([&] { return observer.worlds() == Names{"patient"}; }));
+}
+
 }  // namespace
 }  // namespace poinsot

@@ -57,7 +57,7 @@ TEST(Stacking, OverlapsArePushedOutAtBoundedSpeedWithoutKineticEnergy) {
   scene.allow_overlap = true;
   CollisionLayer layer(scene);
   double last = 1.3, fastest = 0;
-  test::run_until(layer, 3, [&](const CollisionLayer& now) {
+  test::run_until(layer, 5, [&](const CollisionLayer& now) {
     const double z = position(now.world().y, 2).z();
     fastest = std::max(fastest, (z - last) * test::kFrameRate);
     last = z;

@@ -45,14 +45,14 @@ struct CollisionDef {
   ImpactSearchKind impact_search = ImpactSearchKind::none;
   ContactSolverKind contact_solver = ContactSolverKind::sequential_impulses;
   double contact_step = 1.0 / 240;  // [s] longest sub-step of a frame
-  int iterations = 20;              // sweeps of the contact solver per sub-step
+  int iterations = 40;              // sweeps of the contact solver per sub-step
   double contact_margin = 0.02;     // [-] gap below which a point is kept in the manifold, relative
                                     // to the smaller body's size
   double push_out_speed = 1.0;      // [m/s] upper bound of the removal of penetration
 
   // Not keys of the scene file: nothing in a scene needs them otherwise.
   double allowed_penetration = 1e-5;  // [-] that is left alone, relative to the smaller body's size
-  double push_out_rate = 5;           // [1/s] at which a penetration decays; much faster would lift
+  double push_out_rate = 2;           // [1/s] at which a penetration decays; much faster would lift
                                       // one side of a stack before the solver has the other
   double touch_gap = 1e-3;            // [-] below it an arriving pair bounces, relative likewise
   double overlap = 1e-6;              // [-] more is refused at load, relative likewise
