@@ -134,7 +134,8 @@ bool same_side(const Simplex& s, std::size_t i, std::size_t j, std::size_t k, st
 
 // True if the origin is inside; otherwise reduces to the nearest face, edge or corner.
 bool reduce_tetrahedron(Simplex& s, double flat) {
-  constexpr std::size_t kFaces[4][4] = {{0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}, {0, 1, 2, 3}};
+  // The newest corner lies beyond the face of the other three, as the origin does.
+  constexpr std::size_t kFaces[3][4] = {{0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
   double least = std::numeric_limits<double>::infinity();
   Nearest best;
   for (const auto& f : kFaces) {

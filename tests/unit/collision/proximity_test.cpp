@@ -224,6 +224,20 @@ TEST_P(EachPair, CoincidentCentresGiveAFiniteManifold) {
   }
 }
 
+TEST_P(EachPair, AbsurdPosesEnd) {
+  const auto [kind_a, kind_b] = GetParam();
+  Random random(750);
+  const Collider a = collider(random_shape(kind_a, random), 0),
+                 b = collider(random_shape(kind_b, random), 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Vec3& c : {Vec3(1e99, 0, 0), Vec3(1e200, -1e200, 0), Vec3(nan, nan, nan)}) {
+    Manifold m;
+    find_manifold(a, {}, b, {c, Quat::Identity()}, 0.01, m);
+    find_gap(a, {}, b, {c, Quat::Identity()});
+    EXPECT_LE(m.count, 4);
+  }
+}
+
 TEST_P(EachPair, TinyShapesAreMeasuredLikeLargeOnes) {
   const auto [kind_a, kind_b] = GetParam();
   Random random(800 + static_cast<std::uint64_t>(10 * kind_a + kind_b));
