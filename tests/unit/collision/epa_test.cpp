@@ -73,18 +73,22 @@ TEST(Epa, PolytopesPartByTheLeastOfAllAxes) {
 }
 
 class EveryDeepPair : public testing::TestWithParam<std::tuple<int, int>> {};
-INSTANTIATE_TEST_SUITE_P(Epa, EveryDeepPair,
-                         testing::Combine(testing::Range<int>(kSphere, kHalfSpace),
-                                          testing::Range<int>(kBox, kHalfSpace)),
-                         [](const auto& p) {
-                           return name_of(std::get<0>(p.param)) + "_" +
-                                  name_of(std::get<1>(p.param));
-                         });
+
+// Pairs whose cores have a volume between them: a point or a segment hardly meets a segment.
+std::vector<std::tuple<int, int>> deep_pairs() {
+  std::vector<std::tuple<int, int>> pairs;
+  for (int a = kSphere; a < kHalfSpace; ++a)
+    for (int b = kBox; b < kHalfSpace; ++b)
+      if (b != kCapsule || (a != kSphere && a != kCapsule)) pairs.emplace_back(a, b);
+  return pairs;
+}
+
+INSTANTIATE_TEST_SUITE_P(Epa, EveryDeepPair, testing::ValuesIn(deep_pairs()), [](const auto& p) {
+  return name_of(std::get<0>(p.param)) + "_" + name_of(std::get<1>(p.param));
+});
 
 TEST_P(EveryDeepPair, NoSampledDirectionPartsThemSooner) {
   const auto [kind_a, kind_b] = GetParam();
-  if (kind_a == kSphere && kind_b == kCapsule) GTEST_SKIP() << "a point hardly meets a segment";
-  if (kind_a == kCapsule && kind_b == kCapsule) GTEST_SKIP() << "two segments hardly meet";
   double widest = 0;
   const std::vector<Case> cases = overlapping(kind_a, kind_b, 60, 21);
   ASSERT_GT(cases.size(), 40u);
@@ -104,7 +108,6 @@ TEST_P(EveryDeepPair, NoSampledDirectionPartsThemSooner) {
 
 TEST_P(EveryDeepPair, ShallowDepthIsAsSmallAsItIs) {
   const auto [kind_a, kind_b] = GetParam();
-  if (kind_a <= kCapsule && kind_a != kBox && kind_b == kCapsule) GTEST_SKIP();
   Random random(31);
   for (int i = 0; i < 60; ++i) {
     const Collider a = collider(random_shape(kind_a, random)),
