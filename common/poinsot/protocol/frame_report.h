@@ -54,7 +54,7 @@ struct RunReport {
   RunState state = RunState::stopped;
   FrameReport frame;
   double frame_rate = 60;         // [Hz]
-  double real_time_factor = 0;    // simulated / wall time since the last report; 0 while paused
+  double real_time_factor = 0;    // simulated / wall time over a window of 150 ms or more; 0 while paused
   std::uint64_t state_hash = 0;
   std::uint64_t overruns = 0;           // frames that missed their deadline
   std::uint64_t commands_accepted = 0;

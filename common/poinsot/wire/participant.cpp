@@ -6,7 +6,7 @@
 #include <fastdds/dds/log/Log.hpp>
 
 #include "poinsot/base/error.h"
-#include "poinsot/protocol/limits.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/wire/participant_impl.h"
 #include "poinsot/wire/qos.h"
 #include "poinsot/wire/topics.h"

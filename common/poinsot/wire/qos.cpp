@@ -9,7 +9,7 @@
 #include <fastrtps/utils/IPLocator.h>
 
 #include "poinsot/base/check.h"
-#include "poinsot/protocol/limits.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/wire/queue_number.h"
 
 namespace poinsot {

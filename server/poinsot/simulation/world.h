@@ -41,7 +41,7 @@ struct World {
   Vec3 gravity;     // [m/s²] in W
   StateArray y;     // 13×n
 
-  // Constant.
+  // Constant, unless a body is frozen.
   std::vector<BodyId> ids;
   std::vector<std::string> names;
   std::vector<Motion> motion;

@@ -59,12 +59,12 @@ TEST(Validate, ChecksTheTables) {
         s.simulation.gravity.y() = kNaN;
       }),
       (Faults{"world: world must be 1 to 128 letters, digits, '_' or '-', is 'a/b'",
-              "presentation.frame_rate: frame_rate must be > 0 Hz and at most 1000000 Hz, is 0",
-              "collision.contact_step: contact_step must be > 0 s and at most 1 s, is -1",
+              "presentation.frame_rate: frame_rate must be 0.001 to 1000000 Hz, is 0",
+              "collision.contact_step: contact_step must be 1e-09 to 1 s, is -1",
               "collision.iterations: iterations must be 1 to 1000000, is 0",
               "collision.contact_margin: contact_margin must be 0 to 1, is nan",
               "collision.push_out_speed: push_out_speed must be >= 0 m/s and finite, is -1",
-              "simulation.step: step must be 0 (one per contact step) or at most 1 s, is 2",
+              "simulation.step: step must be 0 (one per contact step) or 1e-09 to 1 s, is 2",
               "simulation.gravity: gravity must be finite and at most 1e+12 m/s²"}));
 }
 
