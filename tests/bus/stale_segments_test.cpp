@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/child_process.h"
+#include "support/child_process.h"
 #include "bus/roles.h"
 #include "poinsot/wire/participant.h"
 #include "poinsot/wire/publisher.h"

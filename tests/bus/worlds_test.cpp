@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/child_process.h"
+#include "support/child_process.h"
 #include "bus/roles.h"
 #include "poinsot/wire/publisher.h"
 #include "poinsot/wire/subscriber.h"

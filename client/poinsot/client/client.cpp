@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include "poinsot/base/error.h"
 #include "poinsot/wire/participant.h"
@@ -22,6 +23,8 @@ constexpr auto kPoll = 2ms;
 // Daemons that run are discovered within this time after joining: they announce themselves four
 // times a second.
 constexpr auto kDiscovery = 400ms;
+// On a busy machine it takes longer: all that are there have been met when none came for so long.
+constexpr auto kNoneCame = 300ms;
 
 std::uint64_t random_id() {
   std::random_device random;
@@ -93,7 +96,7 @@ struct Client::Impl {
   explicit Impl(const ClientOptions& client_options)
       : options(client_options),
         participant({.domain = options.domain, .lan = options.lan}),
-        joined_at(Clock::now()) {
+        settled_at(Clock::now() + kDiscovery) {
     if (!options.world.empty()) open(options.world);
   }
 
@@ -120,14 +123,29 @@ struct Client::Impl {
   }
 
   void find_the_only_world(Clock::time_point until) {
-    while (Clock::now() < std::min(until, joined_at + kDiscovery) ||
-           (participant.worlds().empty() && Clock::now() < until))
+    std::vector<std::string> worlds;
+    while (true) {
+      worlds = participant.worlds();
+      if (worlds != std::exchange(met, worlds))
+        settled_at = std::max(settled_at, Clock::now() + kNoneCame);
+      if (!worlds.empty() && Clock::now() >= settled_at) break;
+      if (Clock::now() >= until) return;  // the first one met need not be the only one
       std::this_thread::sleep_for(kPoll);
-    const std::vector<std::string> worlds = participant.worlds();
+    }
     if (worlds.size() > 1)
       throw SeveralWorlds("several worlds on domain " + std::to_string(options.domain) +
                           ", name one of them: " + joined(worlds));
-    if (!worlds.empty()) open(worlds.front());
+    open(worlds.front());
+  }
+
+  // The next sample into `spare`. A frame is written again when somebody joins a paused run: who
+  // has it does not get it twice.
+  bool take_poses() {
+    while (link->poses.take(spare)) {
+      const PoseKey key{spare.session, spare.epoch, spare.frame};
+      if (std::exchange(last_taken, key) != key) return true;
+    }
+    return false;
   }
 
   // The bodies of the daemon that the client looks at: the one whose poses or report it read last,
@@ -170,12 +188,15 @@ struct Client::Impl {
 
   ClientOptions options;
   Participant participant;
-  Clock::time_point joined_at;
+  std::vector<std::string> met;  // worlds
+  Clock::time_point settled_at;  // no others are expected after it
   std::uint64_t id = options.client != 0 ? options.client : random_id();
   // Who shares an identity must not use a number twice; the time never stands still between them.
   std::uint64_t seq = options.client != 0 ? nanoseconds_since_1970() : 0;
   std::string world;
   std::unique_ptr<Link> link;
+  using PoseKey = std::array<std::uint64_t, 3>;  // session, epoch, frame
+  PoseKey last_taken{};
   PoseSnapshot spare;               // received into, then swapped: a refused sample spoils nothing
   std::uint64_t session = 0;        // of the poses or report read last
   std::uint64_t scene_session = 0;  // of the body received last
@@ -210,7 +231,7 @@ const std::string& Client::world() const {
 bool Client::next_poses(PoseSnapshot& snapshot, Duration timeout) {
   Link& link = impl_->opened();
   const Clock::time_point until = deadline(timeout);
-  while (!link.poses.take(impl_->spare)) {
+  while (!impl_->take_poses()) {
     const Duration left = until - Clock::now();
     if (left <= 0ns) return false;
     link.poses_wait.wait(left);
@@ -221,9 +242,9 @@ bool Client::next_poses(PoseSnapshot& snapshot, Duration timeout) {
 }
 
 bool Client::latest_poses(PoseSnapshot& snapshot) {
-  Link& link = impl_->opened();
+  impl_->opened();
   bool any = false;
-  for (; link.poses.take(impl_->spare); any = true) std::swap(snapshot, impl_->spare);
+  for (; impl_->take_poses(); any = true) std::swap(snapshot, impl_->spare);
   if (any) impl_->session = snapshot.session;
   return any;
 }

@@ -59,8 +59,8 @@ class Client {
   Client& operator=(Client&&) noexcept;
 
   // Waits until the daemon is matched in both directions. Throws NoAnswer if none is found in time
-  // (it may be called again), SeveralWorlds at once. If a world was named, the other calls need not
-  // wait for it.
+  // (it may be called again), SeveralWorlds as soon as they have been met: if none was named it
+  // waits for others, 0.4 s at least. If a world was named, the other calls need not wait for it.
   void wait_for_server(Duration timeout);
 
   const std::string& world() const;  // after wait_for_server

@@ -10,8 +10,8 @@
 namespace poinsot {
 namespace {
 
-// Shares the CPU time of a frame among the layers as they shared its wall time: reading the CPU clock
-// takes a system call, too dear for every sub-step.
+// Shares the CPU time of a frame among the layers as they shared its wall time: reading the CPU
+// clock takes a system call, too dear for every sub-step.
 class FrameTimes {
  public:
   explicit FrameTimes(CollisionTimes& times)

@@ -43,17 +43,17 @@ void FramePublisher::stop() {
 void FramePublisher::run(const std::stop_token& stop) {
   for (const BodyInfo& body : scene_) write(scene_topic_, body);
   while (!stop.stop_requested()) {
-    outbox_.wait(stop, kLookForReaders);
-    send();
+    const bool quiet = !outbox_.wait(stop, kLookForReaders);
+    send(quiet);
   }
-  send();  // what came before the stop
+  send(false);  // what came before the stop
 }
 
-void FramePublisher::send() {
+void FramePublisher::send(bool quiet) {
   Elapsed lap;
   {
     const Stopwatch::Lap timer(lap);
-    send_poses();
+    send_poses(quiet);
     if (outbox_.take(report_)) {
       report_.session = session_;
       report_.snapshots_dropped = outbox_.snapshots_dropped();
@@ -68,15 +68,14 @@ void FramePublisher::send() {
   elapsed_ += lap;
 }
 
-void FramePublisher::send_poses() {
+void FramePublisher::send_poses(bool quiet) {
   const int readers = poses_topic_.readers();
-  const bool joined = readers > std::exchange(readers_, readers);
+  joined_ |= readers > std::exchange(readers_, readers);
   outbox_.set_poses_wanted(readers > 0);
   if (readers == 0) return;
-  bool sent = false;
-  for (; outbox_.take(snapshot_); sent = true) write_poses();
-  if (joined && !sent && snapshot_.epoch != 0)
-    write_poses();  // again: nothing newer will come soon
+  for (; outbox_.take(snapshot_); joined_ = false) write_poses();
+  // Again, if nothing newer comes soon; while frames come, other readers would get one twice.
+  if (quiet && std::exchange(joined_, false) && snapshot_.epoch != 0) write_poses();
 }
 
 void FramePublisher::write_poses() {

@@ -34,8 +34,8 @@ class FramePublisher {
 
  private:
   void run(const std::stop_token& stop);
-  void send();
-  void send_poses();
+  void send(bool quiet);
+  void send_poses(bool quiet);
   void write_poses();
   template <class Message>
   void write(Publisher<Message>& topic, const Message& message);
@@ -51,7 +51,8 @@ class FramePublisher {
   PoseSnapshot snapshot_;  // the newest taken
   std::vector<Reply> replies_;
   RunReport report_;
-  int readers_ = 0;  // of poses, at the last look
+  int readers_ = 0;      // of poses, at the last look
+  bool joined_ = false;  // since the newest snapshot was written
 
   Logger logger_;
   RepeatLimiter failures_;

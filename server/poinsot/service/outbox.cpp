@@ -51,9 +51,9 @@ bool Outbox::anything_to_send() const {
   return (poses_wanted_ && count_ > 0) || !replies_.empty() || report_is_new_;
 }
 
-void Outbox::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout) {
+bool Outbox::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout) {
   std::unique_lock lock(mutex_);
-  filled_.wait_for(lock, stop, timeout, [&] { return anything_to_send(); });
+  return filled_.wait_for(lock, stop, timeout, [&] { return anything_to_send(); });
 }
 
 bool Outbox::take(PoseSnapshot& snapshot) {

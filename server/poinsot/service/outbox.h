@@ -35,8 +35,8 @@ class Outbox {
   void push(const RunReport& report);
 
   // From the writer. take() exchanges contents, false: nothing there; wait() ends with something to
-  // take, after the time-out, or with the stop.
-  void wait(const std::stop_token& stop, std::chrono::nanoseconds timeout);
+  // take, after the time-out, or with the stop; true: there is something.
+  bool wait(const std::stop_token& stop, std::chrono::nanoseconds timeout);
   bool take(PoseSnapshot& snapshot);
   bool take(std::vector<Reply>& replies);
   bool take(RunReport& report);
