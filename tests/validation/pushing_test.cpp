@@ -1,8 +1,8 @@
 // Pushes: what a held wrench does to a free body.
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "poinsot/math/rotation.h"
 #include "support/run.h"

@@ -15,8 +15,8 @@
 namespace poinsot {
 namespace {
 
-constexpr double kUnitSlack = 1e-9;    // [-] how far from 1 the norm of a unit quantity may be
-constexpr double kMagnitude = 1e12;    // SI; lengths and speeds beyond it are slips of the pen
+constexpr double kUnitSlack = 1e-9;  // [-] how far from 1 the norm of a unit quantity may be
+constexpr double kMagnitude = 1e12;  // SI; lengths and speeds beyond it are slips of the pen
 constexpr double kMinFrameRate = 1e-3, kMaxFrameRate = 1e6;  // [Hz]
 constexpr double kMinStep = 1e-9, kMaxStep = 1;              // [s]
 constexpr double kMaxStepsPerFrame = 1e6;

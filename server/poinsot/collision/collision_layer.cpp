@@ -41,7 +41,9 @@ class FrameTimes {
 };
 
 // A body that is about to be frozen must not spoil the sums of all the others.
-double finite_or_zero(double energy) { return std::isfinite(energy) ? energy : 0; }
+double finite_or_zero(double energy) {
+  return std::isfinite(energy) ? energy : 0;
+}
 
 }  // namespace
 

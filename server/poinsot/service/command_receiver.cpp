@@ -44,8 +44,8 @@ void CommandReceiver::drain(Subscriber<Command>& topic, Command& command) {
     inbox_.count_malformed();
     refuse(m.client, m.seq, ResultCode::invalid_value, m.reason);
   };
-  // Bounded, so that neither the other topic nor a stop waits for a flood to end; what is left wakes
-  // the waiter at once.
+  // Bounded, so that neither the other topic nor a stop waits for a flood to end; what is left
+  // wakes the waiter at once.
   for (std::size_t n = 0; n < CommandInbox::kCapacity && topic.take(command, malformed); ++n)
     if (!inbox_.push(command))
       refuse(command.client, command.seq, ResultCode::inbox_full,
