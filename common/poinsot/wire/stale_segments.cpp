@@ -58,7 +58,7 @@ class LockProbe {
   enum class State { absent, held, free };
 
   explicit LockProbe(const std::string& name)
-      : file_(open(path_of(name).c_str(), O_RDONLY | O_CLOEXEC)) {
+      : file_(open(path_of(name).c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC)) {
     if (file_ < 0)
       state_ = errno == ENOENT ? State::absent : State::held;
     else
