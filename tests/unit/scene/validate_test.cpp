@@ -124,7 +124,7 @@ TEST(Validate, ChecksNames) {
   EXPECT_EQ(named("ground"),
             Faults{"bodies[1].name: duplicate body name 'ground', first at bodies[0]"});
   EXPECT_EQ(named(std::string(129, 'a')),
-            Faults{"bodies[0].name: a body's name must have at most 128 bytes, has 129"});
+            Faults{"bodies[0].name: a body's name must have at most 127 bytes, has 129"});
   // Control characters; a lone continuation; cut short; overlong '/'; a surrogate; beyond Unicode.
   for (const char* bad : {"a\nb", "\x7f", "\xc2\x85", "\x80", "\xc3", "\xe2\x82", "\xc0\xaf",
                           "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff"})
