@@ -8,7 +8,7 @@ wanted=$(awk -v roles=" $* " '
   { sub(/#.*/, "") }
   { for (i = 2; i <= NF; ++i) if (index(roles, " " $i " ")) { print $1; break } }' "$list")
 
-if ! command -v apt-get dpkg-query >/dev/null; then
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   echo "Not a Debian system: packages are not installed; needed are:" $wanted >&2
   exit 0
 fi

@@ -5,8 +5,7 @@ namespace poinsot {
 namespace {
 
 // Physics knows no clock and no thread of its own, and is silent.
-constexpr std::string_view kSilent =
-    "chrono ctime thread iostream fstream sys/time.h unistd.h";
+constexpr std::string_view kSilent = "chrono ctime thread iostream fstream sys/time.h unistd.h";
 
 }  // namespace
 

@@ -65,6 +65,27 @@ void measure(int kind_a, int kind_b) {
   std::printf("\n");
 }
 
+// Faces on faces, as in a pile that has settled.
+void measure_stacked(const char* name, const Shape& base, const Shape& top, double height) {
+  std::printf("%-10s on %-10s", name, std::string(shape_name(base)).c_str());
+  for (const double gap : {1e-4, -1e-4}) {
+    Random random(8);
+    std::vector<Placed> cases;
+    for (int i = 0; i < 128; ++i) {
+      const Pose world{random.in_box(5), random.rotation()};
+      const Quat turn(Eigen::AngleAxisd(random.uniform(0, 3), Vec3::UnitZ()));
+      const Quat tilt(Eigen::AngleAxisd(1e-6, random.direction()));
+      const Vec3 at(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), height + gap);
+      cases.push_back({collider(base, 0), collider(top, 1), world, world * Pose{at, tilt * turn}});
+    }
+    Manifold manifold;
+    std::printf("  %6.0f", nanoseconds(cases, [&](const Placed& p) {
+                  find_manifold(p.a, p.pose_a, p.b, p.pose_b, 0.02, manifold);
+                }));
+  }
+  std::printf("\n");
+}
+
 }  // namespace
 }  // namespace poinsot::test
 
@@ -73,4 +94,10 @@ int main() {
   std::printf("ns per manifold (GJK iterations)  0.1 mm apart, 0.1 mm deep, 50 mm deep\n");
   for (int a = kSphere; a <= kConvex; ++a)
     for (int b = a; b <= kHalfSpace; ++b) measure(a, b);
+  std::printf("\nns per manifold of a face on a face  0.1 mm apart, 0.1 mm deep\n");
+  const poinsot::Box box{{1, 1, 1}};
+  measure_stacked("box", box, box, 1);
+  measure_stacked("cylinder", box, poinsot::Cylinder{0.5, 1}, 1);
+  measure_stacked("prism", box, prism(12, 0.5, 1), 1);
+  measure_stacked("cylinder", poinsot::Cylinder{0.5, 1}, poinsot::Cylinder{0.5, 1}, 1);
 }

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/child_process.h"
 #include "bus/roles.h"
 #include "poinsot/wire/publisher.h"
 #include "poinsot/wire/subscriber.h"
+#include "support/child_process.h"
 #include "support/protocol_samples.h"
 #include "support/test_domain.h"
 

@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "support/child_process.h"
 #include "bus/roles.h"
 #include "poinsot/wire/participant.h"
 #include "poinsot/wire/publisher.h"
 #include "poinsot/wire/subscriber.h"
+#include "support/child_process.h"
 #include "support/protocol_samples.h"
 #include "support/test_domain.h"
 
@@ -47,13 +47,32 @@ TEST(StaleSegments, OfKilledProcessesAreRemoved) {
     ChildProcess child(role("idle", "stale"));
     ASSERT_EQ(child.read_line(), "ready");
     const Files files = files_of(child.id());
-    ASSERT_GE(files.size(), 8u);  // a segment and at least two queues, their locks and semaphores
+    ASSERT_EQ(files.size(), 5u);  // a segment, a queue, their locks, the queue's semaphore
     child.signal(SIGKILL);
     child.wait();
     ASSERT_EQ(existing(files), files);  // nobody else tidied up
     EXPECT_GE(remove_stale_segments(), static_cast<int>(files.size()));
     EXPECT_EQ(existing(files), Files{});
   }
+}
+
+TEST(StaleSegments, ADeadReadersQueueIsRemovedThoughItsWriterHoldsIt) {
+  Participant participant({.domain = test_domain(), .bodies = 10});
+  Publisher<PoseSnapshot> poses(participant, "held");
+  const Files ours = files_of(getpid());
+  ChildProcess reader(role("read_poses", "held", 1000));
+  ASSERT_EQ(reader.read_line(), "ready");
+  ASSERT_TRUE(eventually([&] { return poses.readers() == 1; }));
+  ASSERT_TRUE(poses.write(sample::poses(1, 10)));
+  ASSERT_EQ(reader.read_line(), "1 10 good");
+  Files files = files_of(reader.id());
+  for (const std::string& file : ours) files.erase(file);
+  ASSERT_EQ(files.size(), 5u);
+  ASSERT_GT(files_of(getpid()).size(), ours.size());  // we hold its queue
+  reader.signal(SIGKILL);
+  reader.wait();
+  remove_stale_segments();
+  EXPECT_EQ(existing(files), Files{});
 }
 
 TEST(StaleSegments, OfRunningProcessesStay) {

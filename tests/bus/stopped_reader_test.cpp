@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/child_process.h"
 #include "bus/roles.h"
 #include "poinsot/wire/publisher.h"
+#include "support/child_process.h"
 #include "support/protocol_samples.h"
 #include "support/test_domain.h"
 

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/child_process.h"
 #include "bus/roles.h"
 #include "poinsot/wire/publisher.h"
 #include "poinsot/wire/subscriber.h"
+#include "support/child_process.h"
 #include "support/protocol_samples.h"
 #include "support/test_domain.h"
 
@@ -74,6 +74,15 @@ TEST(Worlds, ManyParticipantsOfThisHostAllFindEachOther) {
       if (participants[i].worlds() != Names{"late_number"}) return false;
     return true;
   }));
+}
+
+TEST(Worlds, AProcessThatJoinedAndLeftManyTimesIsStillMet) {
+  Participant daemon({.domain = test_domain()});
+  Publisher<RunReport> report(daemon, "patient");
+  constexpr int kJoins = 40;  // more than there are numbers of participants that are greeted
+  for (int i = 0; i < kJoins; ++i) Participant({.domain = test_domain()});
+  Participant observer({.domain = test_domain()});
+  EXPECT_TRUE(eventually([&] { return observer.worlds() == Names{"patient"}; }));
 }
 
 }  // namespace

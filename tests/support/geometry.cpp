@@ -23,13 +23,13 @@ Vec3 across(const Vec3& n) {
 // Compass search on the sphere, from n.
 double improved(const auto& value, Vec3 n, double step) {
   double best = value(n);
-  while (step > 1e-11) {
+  for (int turns = 0; step > 1e-10 && turns < 300; ++turns) {
     const Vec3 u = across(n), v = n.cross(u);
     bool better = false;
     for (int k = 0; k < 12 && !better; ++k) {
       const double angle = k * std::numbers::pi / 6 + step;
       const Vec3 next = (n + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
-      if (const double s = value(next); s > best) {
+      if (const double s = value(next); s > best + 1e-15) {
         best = s;
         n = next;
         better = true;

@@ -54,7 +54,7 @@ double separation(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
                   const Vec3& n);
 
 // The signed gap by brute force: the best separation over a dense set of directions, improved
-// locally. A lower bound; to about 1e-9 of the size for overlapping curved shapes.
+// locally. A lower bound always; close to the gap unless the search stops at a kink.
 double sampled_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
 // The exact signed gap of overlapping polyhedra: all faces, all crossed edges. A lower bound for

@@ -65,7 +65,7 @@ TEST(Flight, TheTennisRacketFlipsWhenTheEllipticIntegralSays) {
     last = along;
     last_t = now.time();
   });
-  // k'² = 7.999999040e-8 and p = 2.88675151915 from the momenta (hard case A1).
+  // k'² and p of this motion from its momenta, by the formulas of §37.
   const double half_period = 2 * test::elliptic_K(7.999999040e-8) / 2.88675151915;
   ASSERT_EQ(flips.size(), 3u);
   // The crossing is interpolated between frames, T²/8 of a curvature that vanishes with ω₂.

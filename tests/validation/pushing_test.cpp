@@ -1,5 +1,7 @@
 // Pushes: what a held wrench does to a free body.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "poinsot/math/rotation.h"
@@ -59,10 +61,8 @@ TEST(Pushing, AForceAtABodyPointFollowsThePointAsTheBodyTurns) {
   needle.pose.q = Quat(Eigen::AngleAxisd(1.57079632679489661923, Vec3::UnitZ()));
   CollisionLayer layer(floating(needle));
   layer.world().held[0].add_force_at({l, 0, 0}, {F, 0, 0});
-  double angle = 1.5, largest = 0;
+  double largest = 0;
   test::run_until(layer, 3, [&](const CollisionLayer& now) {
-    const Vec3 tip = rotation(now.world(), 0) * Vec3::UnitX();
-    angle = std::atan2(tip.y(), tip.x());
     largest = std::max(largest, std::abs(angular_velocity(now.world(), 0).z()));
   });
   const double at_bottom = std::sqrt(2 * F * l / J);
@@ -71,6 +71,32 @@ TEST(Pushing, AForceAtABodyPointFollowsThePointAsTheBodyTurns) {
   EXPECT_LE(largest, at_bottom + 1e-9);
   EXPECT_GE(largest, at_bottom - curvature);
   EXPECT_LT(std::abs(layer.energy_error()), 1e-9);
+}
+
+TEST(Pushing, AStrongPushDoesNotDriveABodyThroughAThinWall) {
+  BodyDef wall = test::body("wall", Box{{0.01, 2, 2}}, {0.5, 0, 0});
+  wall.is_static = true;
+  Scene scene = test::scene({wall, test::body("ball", Sphere{0.05}, {0, 0, 0})});
+  scene.simulation.gravity.setZero();
+  CollisionLayer layer(scene);
+  layer.world().held[1].in_W.force = {1e6, 0, 0};  // 2e6 m/s²: 33 m in one sub-step
+  test::run_until(layer, 0.2, [](const CollisionLayer& now) {
+    ASSERT_LT(position(now.world().y, 1).x(), 0.5 - 0.005 - 0.05 + 1e-3);
+  });
+}
+
+TEST(Pushing, ABodyThatIsFrozenLeavesThoseItTouchesAlone) {
+  // One of two boxes on the ground gets an absurd momentum: it is frozen, the other rests on.
+  CollisionLayer layer(test::scene({test::ground(), test::body("bad", Box{{1, 1, 1}}, {0, 0, 0.5}),
+                                    test::body("good", Box{{1, 1, 1}}, {3, 0, 0.5})}));
+  test::run_until(layer, 1);
+  momentum(layer.world().y, 1) = Vec3(1e200, 0, -1e200);
+  test::run_until(layer, 2);
+  EXPECT_EQ(layer.simulation().quarantined(), 1u);
+  EXPECT_TRUE(layer.world().moves(2));
+  EXPECT_TRUE(layer.world().y.allFinite());
+  EXPECT_NEAR((position(layer.world().y, 2) - Vec3(3, 0, 0.5)).norm(), 0, 1e-4);
+  EXPECT_TRUE(std::isfinite(layer.energy_error()));
 }
 
 }  // namespace

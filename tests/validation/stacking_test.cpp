@@ -23,11 +23,14 @@ TEST(Stacking, ATowerOfTenBoxesStandsForAMinute) {
   CollisionLayer layer(tower(10));
   const StateArray start = layer.world().y;
   test::run_until(layer, 1);
-  const double settled = largest_displacement(layer, start);
-  test::run_until(layer, 60);
-  // The solver's sweeps leave a millimetre while they find the forces; afterwards nothing creeps.
-  EXPECT_LT(settled, 2e-3);
+  // The solver's sweeps leave up to a millimetre while they find the forces.
   EXPECT_LT(largest_displacement(layer, start), 2e-3);
+  test::run_until(layer, 30);
+  const StateArray settled = layer.world().y;
+  test::run_until(layer, 60);
+  EXPECT_LT(largest_displacement(layer, start), 2e-3);
+  // Afterwards nothing creeps: push-out trades a fraction of the allowed penetration per box.
+  EXPECT_LT(largest_displacement(layer, settled), 10 * 1e-5);
   EXPECT_LT(layer.report().max_penetration, 1e-4);
   for (Eigen::Index i = 1; i < layer.world().size(); ++i)
     EXPECT_LT(linear_velocity(layer.world(), i).norm(), 1e-4);

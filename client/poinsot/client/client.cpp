@@ -175,7 +175,7 @@ struct Client::Impl {
     Reply reply;
     while (true) {
       if (!publisher.write(message))
-        throw Error("the command does not fit on the bus (body_name: at most 128 bytes of UTF-8)");
+        throw Error("the command does not fit on the bus (body_name: at most 127 bytes of UTF-8)");
       const Clock::time_point resend = std::min(until, Clock::now() + kResendAfter);
       do {
         while (link->reply.take(reply))

@@ -8,7 +8,9 @@
 namespace poinsot {
 
 // J in the parent's axes from J in the child's: R J Rᵀ.
-inline Mat3 rotate_inertia(const Mat3& R, const Mat3& J) { return R * J * R.transpose(); }
+inline Mat3 rotate_inertia(const Mat3& R, const Mat3& J) {
+  return R * J * R.transpose();
+}
 
 // What a mass m [kg] at offset r [m] from the reference point adds: m (rᵀr 1 − r rᵀ).
 inline Mat3 parallel_axis(double m, const Vec3& r) {

@@ -10,10 +10,10 @@
 namespace poinsot {
 
 struct Pose {
-  Vec3 c = Vec3::Zero();       // [m] origin, in the parent frame
-  Quat q = Quat::Identity();   // unit, child → parent
+  Vec3 c = Vec3::Zero();      // [m] origin, in the parent frame
+  Quat q = Quat::Identity();  // unit, child → parent
 
-  Vec3 operator*(const Vec3& point) const { return c + q * point; }        // child → parent
+  Vec3 operator*(const Vec3& point) const { return c + q * point; }  // child → parent
   Pose operator*(const Pose& child) const { return {c + q * child.c, q * child.q}; }
   Pose inverse() const { return {-(q.conjugate() * c), q.conjugate()}; }
 };

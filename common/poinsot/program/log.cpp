@@ -22,7 +22,7 @@ std::string quoted(std::string_view value) {
   std::string text = "\"";
   for (const char c : value) {
     if (c == '"' || c == '\\') text += '\\';
-    text += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
+    text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
   }
   return text + '"';
 }

@@ -27,14 +27,14 @@ constexpr bool has_flag(FrameFlag set, FrameFlag flag) {
 // What the physics knows of one frame.
 struct FrameReport {
   std::uint64_t frame = 0;
-  double sim_time = 0;          // [s]
-  std::uint32_t bodies = 0;     // dynamic
-  std::uint32_t contacts = 0;   // points with a pushing impulse in the last sub-step
+  double sim_time = 0;            // [s]
+  std::uint32_t bodies = 0;       // dynamic
+  std::uint32_t contacts = 0;     // points with a pushing impulse in the last sub-step
   std::uint32_t quarantined = 0;  // bodies frozen so far
-  double energy = 0;            // [J] kinetic + potential
-  double energy_error = 0;      // [-] (ΔE − work + contact loss) / energy scale, since the epoch began
-  double push_out_energy = 0;   // [J] added by the removal of penetration
-  double max_penetration = 0;   // [m]
+  double energy = 0;              // [J] kinetic + potential
+  double energy_error = 0;  // [-] (ΔE − work + contact loss) / energy scale, since the epoch began
+  double push_out_energy = 0;  // [J] added by the removal of penetration
+  double max_penetration = 0;  // [m]
   FrameFlag flags = FrameFlag::none;
 };
 
@@ -53,10 +53,10 @@ struct RunReport {
   std::uint32_t epoch = 0;
   RunState state = RunState::stopped;
   FrameReport frame;
-  double frame_rate = 60;         // [Hz]
-  double real_time_factor = 0;    // simulated / wall time since the last report; 0 while paused
+  double frame_rate = 60;       // [Hz]
+  double real_time_factor = 0;  // simulated / wall time over 150 ms or more; 0 while paused
   std::uint64_t state_hash = 0;
-  std::uint64_t overruns = 0;           // frames that missed their deadline
+  std::uint64_t overruns = 0;  // frames that missed their deadline
   std::uint64_t commands_accepted = 0;
   std::uint64_t commands_refused = 0;   // by the loop or the receiver
   std::uint64_t snapshots_dropped = 0;  // by the hand-over to the bus

@@ -22,10 +22,10 @@ struct BodyState {
 };
 
 struct PoseSnapshot {
-  std::uint64_t session = 0;     // of the daemon process: changes when it restarts
-  std::uint32_t epoch = 0;       // of the run: grows with each reset, from 1
-  std::uint64_t frame = 0;       // index of the frame, 0 is the initial state
-  std::int64_t sim_time_ns = 0;  // [ns] frame / frame_rate, rounded
+  std::uint64_t session = 0;         // of the daemon process: changes when it restarts
+  std::uint32_t epoch = 0;           // of the run: grows with each reset, from 1
+  std::uint64_t frame = 0;           // index of the frame, 0 is the initial state
+  std::int64_t sim_time_ns = 0;      // [ns] frame / frame_rate, rounded
   std::int64_t publish_time_ns = 0;  // [ns] since 1970 (UTC) when it was handed to the bus
   std::uint64_t state_hash = 0;
   std::vector<BodyState> bodies;  // in the order of the scene file

@@ -1,9 +1,9 @@
 // A client's force and torque on one body, and its answer.
 //
-// What it acts on and when: the force acts at a body-fixed point (the centre of mass by default), in
-// axes of W or of B, from one frame to another, both named by the reply. A point becomes body-fixed
-// when the command is accepted; a force in W stays constant in W while the body turns, a force in B
-// turns with it. Commands of one body add up.
+// What it acts on and when: the force acts at a body-fixed point (the centre of mass by default),
+// in axes of W or of B, from one frame to another, both named by the reply. A point becomes
+// body-fixed when the command is accepted; a force in W stays constant in W while the body turns, a
+// force in B turns with it. Commands of one body add up.
 //
 // (client, seq) is the command's identity: the same pair is answered again and not applied again,
 // so that a client may resend until it hears. seq starts at 1.
@@ -32,10 +32,10 @@ enum class Hold : std::uint8_t {
 };
 
 struct WrenchCommand {
-  std::uint64_t client = 0;  // chosen by the client, unique on the bus
-  std::uint64_t seq = 0;     // counts the client's commands and controls
-  std::uint32_t epoch = 0;   // run that it is meant for; 0: whichever runs
-  BodyId body = {};          // none: by name
+  std::uint64_t client = 0;    // chosen by the client, unique on the bus
+  std::uint64_t seq = 0;       // counts the client's commands and controls
+  std::uint32_t epoch = 0;     // run that it is meant for; 0: whichever runs
+  BodyId body = {};            // none: by name
   std::string body_name = {};  // used when `body` is none
   Vec3 force = Vec3::Zero();   // [N]
   Vec3 torque = Vec3::Zero();  // [N·m] about the point of action's own axes: a free couple

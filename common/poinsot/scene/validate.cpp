@@ -7,18 +7,21 @@
 #include <utility>
 
 #include "poinsot/base/error.h"
+#include "poinsot/base/limits.h"
+#include "poinsot/base/utf8.h"
 #include "poinsot/math/inertia.h"
 #include "poinsot/scene/scene.h"
 
 namespace poinsot {
 namespace {
 
-constexpr double kUnitSlack = 1e-9;    // [-] how far from 1 the norm of a unit quantity may be
-constexpr double kMagnitude = 1e12;    // SI; lengths and speeds beyond it are slips of the pen
-constexpr double kMaxFrameRate = 1e6;  // [Hz]
-constexpr double kMaxStep = 1;         // [s]
+constexpr double kUnitSlack = 1e-9;  // [-] how far from 1 the norm of a unit quantity may be
+constexpr double kMagnitude = 1e12;  // SI; lengths and speeds beyond it are slips of the pen
+constexpr double kMinFrameRate = 1e-3, kMaxFrameRate = 1e6;  // [Hz]
+constexpr double kMinStep = 1e-9, kMaxStep = 1;              // [s]
+constexpr double kMaxStepsPerFrame = 1e6;
+constexpr double kLeastMass = 1e-30, kMostMass = 1e30;  // [kg] squares and inverses stay finite
 constexpr int kMaxIterations = 1'000'000;
-constexpr std::size_t kMaxName = 128;  // [bytes]
 
 std::string number(double value) {
   char text[32];
@@ -38,36 +41,10 @@ bool is_unit(double norm) {
   return std::abs(norm - 1) <= kUnitSlack;
 }
 
-// Well-formed UTF-8 (no overlong forms, no surrogates) without control characters.
-bool is_printable_utf8(std::string_view text) {
-  auto byte = [&](std::size_t i) -> unsigned {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
-  };
-  for (std::size_t i = 0; i < text.size();) {
-    const unsigned lead = byte(i);
-    if (lead < 0x80) {
-      if (lead < 0x20 || lead == 0x7f) return false;
-      ++i;
-      continue;
-    }
-    const std::size_t more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : 1;
-    if (lead < 0xc2 || lead > 0xf4) return false;
-    for (std::size_t k = 1; k <= more; ++k)
-      if ((byte(i + k) & 0xc0) != 0x80) return false;
-    const unsigned second = byte(i + 1);
-    if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
-        (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f) ||
-        (lead == 0xc2 && second < 0xa0))
-      return false;
-    i += more + 1;
-  }
-  return true;
-}
-
 std::string name_fault(std::string_view name) {
   if (name.empty()) return "a body's name must not be empty";
-  if (name.size() > kMaxName)
-    return "a body's name must have at most " + std::to_string(kMaxName) + " bytes, has " +
+  if (name.size() > kMaxNameLength)
+    return "a body's name must have at most " + std::to_string(kMaxNameLength) + " bytes, has " +
            std::to_string(name.size());
   if (!is_printable_utf8(name)) return "a body's name must be printable UTF-8 text";
   return {};
@@ -75,12 +52,12 @@ std::string name_fault(std::string_view name) {
 
 std::string world_fault(std::string_view world) {
   const bool good =
-      !world.empty() && world.size() <= kMaxName && std::ranges::all_of(world, [](char c) {
+      !world.empty() && world.size() <= kMaxNameLength && std::ranges::all_of(world, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                c == '_' || c == '-';
       });
   return good ? std::string()
-              : "world must be 1 to " + std::to_string(kMaxName) +
+              : "world must be 1 to " + std::to_string(kMaxNameLength) +
                     " letters, digits, '_' or '-', is " + quoted(world);
 }
 
@@ -171,11 +148,18 @@ class Validation {
 
   void check_tables(const Scene& scene) {
     const double rate = scene.presentation.frame_rate;
-    require(rate > 0 && rate <= kMaxFrameRate, "presentation.frame_rate",
-            "frame_rate must be > 0 Hz and at most " + number(kMaxFrameRate) + " Hz", rate);
+    require(rate >= kMinFrameRate && rate <= kMaxFrameRate, "presentation.frame_rate",
+            "frame_rate must be " + number(kMinFrameRate) + " to " + number(kMaxFrameRate) + " Hz",
+            rate);
     const CollisionDef& c = scene.collision;
-    require(c.contact_step > 0 && c.contact_step <= kMaxStep, "collision.contact_step",
-            "contact_step must be > 0 s and at most " + number(kMaxStep) + " s", c.contact_step);
+    require(c.contact_step >= kMinStep && c.contact_step <= kMaxStep, "collision.contact_step",
+            "contact_step must be " + number(kMinStep) + " to " + number(kMaxStep) + " s",
+            c.contact_step);
+    for (const double step : {c.contact_step, scene.simulation.step})
+      if (step > 0 && rate > 0 && 1 / (rate * step) > kMaxStepsPerFrame)
+        add("", "collision.contact_step",
+            "a frame would take more than " + number(kMaxStepsPerFrame) + " steps of " +
+                number(step) + " s");
     require(c.iterations >= 1 && c.iterations <= kMaxIterations, "collision.iterations",
             "iterations must be 1 to " + std::to_string(kMaxIterations), c.iterations);
     require(c.contact_margin >= 0 && c.contact_margin <= 1, "collision.contact_margin",
@@ -183,8 +167,10 @@ class Validation {
     require(c.push_out_speed >= 0 && c.push_out_speed <= kMagnitude, "collision.push_out_speed",
             "push_out_speed must be >= 0 m/s and finite", c.push_out_speed);
     const SimulationDef& s = scene.simulation;
-    require(s.step >= 0 && s.step <= kMaxStep, "simulation.step",
-            "step must be 0 (one per contact step) or at most " + number(kMaxStep) + " s", s.step);
+    require(s.step == 0 || (s.step >= kMinStep && s.step <= kMaxStep), "simulation.step",
+            "step must be 0 (one per contact step) or " + number(kMinStep) + " to " +
+                number(kMaxStep) + " s",
+            s.step);
     if (!sane(s.gravity))
       add("", "simulation.gravity",
           "gravity must be finite and at most " + number(kMagnitude) + " m/s²");
@@ -203,6 +189,10 @@ class Validation {
     check_material(body, path + ".material");
     for (std::size_t k = 0; k < body.shapes.size(); ++k)
       check_shape(body, body.shapes[k], path + ".shapes[" + std::to_string(k) + "]");
+    if (body.shapes.size() > kMaxShapes)
+      add(body.where, path + ".shapes",
+          "a body has at most " + std::to_string(kMaxShapes) + " shapes, this one " +
+              std::to_string(body.shapes.size()));
     body.is_static ? check_static(body, path) : check_masses(body, path);
   }
 
@@ -210,6 +200,10 @@ class Validation {
     const MassProperties& m = body.mass_properties;
     if (!(m.mass > 0) || !std::isfinite(m.mass))
       add(body.where, path + ".mass", "mass must be > 0 kg and finite, is " + number(m.mass));
+    else if (m.mass < kLeastMass || m.mass > kMostMass)
+      add(body.where, path + ".mass",
+          "mass must be " + number(kLeastMass) + " to " + number(kMostMass) + " kg, is " +
+              number(m.mass));
     check_vector(body, path + ".center_of_mass", m.center_of_mass, "m");
     if (m.mass > 0) add(body.where, path + ".inertia", inertia_fault(m.J));
   }

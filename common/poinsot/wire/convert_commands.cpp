@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "poinsot/protocol/limits.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/wire/checks.h"
 #include "poinsot/wire/convert.h"
 

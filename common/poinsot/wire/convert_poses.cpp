@@ -1,4 +1,4 @@
-#include "poinsot/protocol/limits.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/wire/checks.h"
 #include "poinsot/wire/convert.h"
 

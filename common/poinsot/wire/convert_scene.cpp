@@ -1,6 +1,6 @@
 #include <span>
 
-#include "poinsot/protocol/limits.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/wire/checks.h"
 #include "poinsot/wire/convert.h"
 

@@ -6,9 +6,8 @@
 #include <fastdds/dds/log/Log.hpp>
 
 #include "poinsot/base/error.h"
-#include "poinsot/protocol/limits.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/wire/participant_impl.h"
-#include "poinsot/wire/participant_numbers.h"
 #include "poinsot/wire/qos.h"
 #include "poinsot/wire/topics.h"
 
@@ -44,6 +43,20 @@ std::string world_of(std::string_view topic) {
   topic.remove_prefix(kPrefix.size());
   topic.remove_suffix(kSuffix.size());
   return std::string(topic);
+}
+
+// Numbers that no participant of ours in this process has, ascending. A participant's UDP ports
+// follow from its number, and only small numbers are greeted; Fast DDS would count a process's
+// participants without end.
+std::vector<int> free_numbers(const dds::DomainParticipantFactory& factory) {
+  std::set<int> taken;
+  for (int domain = 0; domain <= kMaxDomain; ++domain)
+    for (const auto* other : factory.lookup_participants(static_cast<std::uint32_t>(domain)))
+      taken.insert(other->get_qos().wire_protocol().participant_id);
+  std::vector<int> numbers;
+  for (int number = 0; number < kMaxLocalParticipants; ++number)
+    if (!taken.contains(number)) numbers.push_back(number);
+  return numbers;
 }
 
 }  // namespace
@@ -104,7 +117,7 @@ BusCore::BusCore(const BusOptions& options) {
   set_participant_qos(options, qos);
   // Another library of this process, or another thread, may have taken a number.
   constexpr std::size_t kAttempts = 4;
-  const std::vector<int> numbers = participant_numbers(options.domain, qos);
+  const std::vector<int> numbers = free_numbers(*factory);
   for (std::size_t i = 0; i < std::min(kAttempts, numbers.size()) && participant_ == nullptr; ++i) {
     qos.wire_protocol().participant_id = numbers[i];
     participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain), qos,

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 
+#include <fastdds/rtps/transport/TransportInterface.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
 #include "poinsot/base/check.h"
-#include "poinsot/protocol/limits.h"
+#include "poinsot/base/limits.h"
+#include "poinsot/wire/queue_number.h"
 
 namespace poinsot {
 namespace {
@@ -57,6 +59,12 @@ void add_peer(dds::DomainParticipantQos& qos, const char* address, std::uint32_t
   eprosima::fastrtps::rtps::IPLocator::setIPv4(peer, address);
   peer.port = port;  // 0: the ports of the first kMaxLocalParticipants participants
   qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+}
+
+// Only the transport knows what marks a queue as one of this host.
+void add_queue(const rtps::SharedMemTransportDescriptor& descriptor, rtps::LocatorList& locators) {
+  const std::unique_ptr<rtps::TransportInterface> transport(descriptor.create_transport());
+  transport->getDefaultUnicastLocators(locators, draw_queue_number());
 }
 
 }  // namespace
@@ -115,16 +123,24 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports = {udp, shared_memory};
 
-  auto& builtin = qos.wire_protocol().builtin;
-  builtin.discovery_config.leaseDuration = milliseconds(5000);
-  // The answer to a newcomer's first announcement is sometimes lost: it then waits for the next.
-  builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(250);
-  builtin.discovery_config.initial_announcements = {10, milliseconds(50)};
+  // Discovery goes over UDP alone, data over either: shared memory under a number of our own.
+  auto& wire = qos.wire_protocol();
+  const eprosima::fastrtps::rtps::Locator_t any_udp;  // any allowed address, the port of our number
+  wire.builtin.metatrafficUnicastLocatorList.push_back(any_udp);
+  wire.default_unicast_locator_list.push_back(any_udp);
+  add_queue(*shared_memory, wire.default_unicast_locator_list);
+
+  auto& discovery = wire.builtin.discovery_config;
+  discovery.leaseDuration = milliseconds(5000);
+  // Fast DDS 2.9.1 announces a newcomer before it listens: a quick answer is lost, and it waits for
+  // the next announcement.
+  discovery.leaseDuration_announcementperiod = milliseconds(250);
+  discovery.initial_announcements = {10, milliseconds(50)};
   // Loopback need not be able to multicast: participants of this host are greeted one by one.
   add_peer(qos, kLoopback, 0);
   if (options.lan)
     add_peer(qos, kMulticast,
-             qos.wire_protocol().port.getMulticastPort(static_cast<std::uint32_t>(options.domain)));
+             wire.port.getMulticastPort(static_cast<std::uint32_t>(options.domain)));
 }
 
 }  // namespace poinsot

@@ -1,16 +1,15 @@
 // What Fast DDS 2.9 leaves in /dev/shm when a process dies, and how to tell that it did:
 //
-//   fastrtps_<16 hex>        a participant's segment; its owner holds a lock on fastrtps_<16
-//   hex>_el fastrtps_port<number>    a receive queue; its reader holds a lock on …_el (or a shared
-//   one on …_sl);
-//                            sem.fastrtps_port<number>_mutex guards opening it
-//   fast_datasharing_<guid>  histories of other applications (Poinsot makes none); no lock
+//   fastrtps_<16 hex>      a participant's segment; its owner holds a lock on fastrtps_<16 hex>_el
+//   fastrtps_port<number>  a receive queue; its reader holds a lock on …_el (or a shared one on
+//   …_sl);
+//                          sem.fastrtps_port<number>_mutex guards opening it
+//   fast_datasharing_<id>  histories of other applications (Poinsot makes none); no lock
 //
-// The kernel drops locks with their process. A queue without a reader may still be mapped by a
-// writer that waits for the reader's successor, and would then write into nowhere; so queues and
-// histories go only if no process maps them, and only where every process can be seen: in the
-// initial process namespace. Elsewhere segments alone are removed; queues are few there, since
-// numbers are reused.
+// The kernel drops locks with their process. A queue of Poinsot's has a number of its own: nobody
+// reads it after its reader. Queues of others are found again by whoever takes the same number, and
+// those who still map one would then write into nowhere: they and the histories go only if no
+// process maps them, and only where every process can be seen, in the initial process namespace.
 
 #include <algorithm>
 #include <cctype>
@@ -30,6 +29,7 @@
 #include <vector>
 
 #include "poinsot/wire/participant.h"
+#include "poinsot/wire/queue_number.h"
 
 namespace poinsot {
 namespace {
@@ -58,7 +58,7 @@ class LockProbe {
   enum class State { absent, held, free };
 
   explicit LockProbe(const std::string& name)
-      : file_(open(path_of(name).c_str(), O_RDONLY | O_CLOEXEC)) {
+      : file_(open(path_of(name).c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC)) {
     if (file_ < 0)
       state_ = errno == ENOENT ? State::absent : State::held;
     else
@@ -182,14 +182,23 @@ int remove_queue(const std::string& queue, const QueueGuard& guard) {
   const LockProbe shared(queue + "_sl");
   if (exclusive.state() == LockProbe::State::held || shared.state() == LockProbe::State::held)
     return 0;
+  if (exclusive.state() == LockProbe::State::absent && !is_old(queue)) return 0;
   return remove_file(queue) + remove_file(queue + "_el") + remove_file(queue + "_sl") +
          guard.remove();
+}
+
+bool is_own(const std::string& queue) {
+  constexpr std::string_view kPrefix = "fastrtps_port";
+  constexpr std::size_t kDigits = 5;
+  return queue.size() == kPrefix.size() + kDigits &&
+         is_own_queue(std::stoul(queue.substr(kPrefix.size())));
 }
 
 int remove_unmapped(const Leftovers& found) {
   // Nobody can open a queue between the look at all processes and its removal.
   std::map<std::string, QueueGuard> guards;
-  for (const std::string& queue : found.queues) guards.try_emplace(queue, queue);
+  for (const std::string& queue : found.queues)
+    if (!is_own(queue)) guards.try_emplace(queue, queue);
   const std::set<std::string> mapped = mapped_files();
   int removed = 0;
   for (const auto& [queue, guard] : guards)
@@ -205,6 +214,9 @@ int remove_stale_segments() {
   const Leftovers found = sort_names(names_in("/dev/shm"));
   int removed = 0;
   for (const std::string& segment : found.segments) removed += remove_segment(segment);
+  for (const std::string& queue : found.queues)
+    if (is_own(queue))
+      if (const QueueGuard guard(queue); guard.held()) removed += remove_queue(queue, guard);
   if (all_processes_are_visible()) removed += remove_unmapped(found);
   return removed;
 }

@@ -45,7 +45,7 @@ class Subscriber {
   std::unique_ptr<Impl> impl_;
 };
 
-// Waits until one of the attached subscribers has data, or until woken.
+// Waits until one of the attached subscribers has data, or until woken. The subscribers outlive it.
 class Waiter {
  public:
   Waiter();

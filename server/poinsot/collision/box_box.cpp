@@ -89,11 +89,10 @@ bool crossing_edges(const ConvexPair& pair, const Halves& half, const Axis& axis
   return std::abs(s) <= half.a[axis.i] + slack && std::abs(t) <= half.b[axis.j] + slack;
 }
 
-// A corner of the incident face seen from the reference face: beside its middle, above its plane.
-struct Corner {
-  double u, v, height;
-};
-using Corners = std::array<Corner, 8>;  // a quadrilateral cut by four sides
+// Corners of the incident face seen from the reference face: beside its middle, above its plane.
+using Corner = Candidate;
+using Corners =
+    std::array<Corner, 12>;  // a quadrilateral cut by four sides has eight; and to spare
 
 // Keeps the part with sign·(u or v) ≤ limit.
 template <double Corner::*kAlong>
@@ -107,7 +106,7 @@ int cut(const Corners& from, int count, double sign, double limit, Corners& to) 
     if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
       const double t = dp / (dp - dq);
       to[static_cast<std::size_t>(kept++)] = {p.u + t * (q.u - p.u), p.v + t * (q.v - p.v),
-                                              p.height + t * (q.height - p.height)};
+                                              p.gap + t * (q.gap - p.gap)};
     }
   }
   return kept;
@@ -148,7 +147,7 @@ struct FacePair {
   // Midway between the two surfaces, in the frame of the reference box.
   Vec3 middle(const Corner& corner) const {
     Vec3 p;
-    p[axis] = side * (half[axis] + 0.5 * corner.height);
+    p[axis] = side * (half[axis] + 0.5 * corner.gap);
     p[u] = corner.u;
     p[v] = corner.v;
     return p;
@@ -163,17 +162,25 @@ bool clip_faces(const ConvexPair& pair, const Halves& half, const Axis& axis, do
   FacePair faces = axis.of_a ? FacePair(half.a, half.b, R, pair.c, axis.i, -n[axis.i])
                              : FacePair(half.b, half.a, R.transpose(), -(R.transpose() * pair.c),
                                         axis.i, n.dot(R.col(axis.i)));
-  PointSet set(kSameGap * std::min(pair.a.size, pair.b.size));
-  const int count = faces.clip(pair.rounding());
-  for (int i = 0; i < count; ++i) {
-    const Corner& corner = faces.incident[static_cast<std::size_t>(i)];
-    if (corner.height > margin) continue;
-    const Vec3 p = faces.middle(corner);
-    set.add(axis.of_a ? p : Vec3(pair.c + R * p), corner.height);
+  int count = 0;
+  double least = std::numeric_limits<double>::infinity();
+  const int clipped = faces.clip(pair.rounding());
+  for (int i = 0; i < clipped; ++i) {
+    const Corner corner = faces.incident[static_cast<std::size_t>(i)];
+    if (corner.gap > margin) continue;
+    least = std::min(least, corner.gap);
+    faces.incident[static_cast<std::size_t>(count++)] = corner;
   }
-  if (set.count() == 0 || set.least_gap() > axis.gap + 2 * kEdgeAdvantage * pair.small)
-    return false;
-  set.reduce_into(n, manifold);
+  if (least > axis.gap + 2 * kEdgeAdvantage * pair.small) return false;
+  const Choice choice = choose_points({faces.incident.data(), static_cast<std::size_t>(count)},
+                                      kSameGap * std::min(pair.a.size, pair.b.size));
+  manifold.normal = n;
+  manifold.count = choice.count;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(choice.count); ++k) {
+    const Corner& corner = faces.incident[choice.index[k]];
+    const Vec3 p = faces.middle(corner);
+    manifold.points[k] = {axis.of_a ? p : Vec3(pair.c + R * p), corner.gap};
+  }
   return true;
 }
 

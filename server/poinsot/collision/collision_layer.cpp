@@ -10,8 +10,8 @@
 namespace poinsot {
 namespace {
 
-// Shares the CPU time of a frame among the layers as they shared its wall time: reading the CPU clock
-// takes a system call, too dear for every sub-step.
+// Shares the CPU time of a frame among the layers as they shared its wall time: reading the CPU
+// clock takes a system call, too dear for every sub-step.
 class FrameTimes {
  public:
   explicit FrameTimes(CollisionTimes& times)
@@ -39,6 +39,11 @@ class FrameTimes {
   CollisionTimes before_;
   Elapsed start_;
 };
+
+// A body that is about to be frozen must not spoil the sums of all the others.
+double finite_or_zero(double energy) {
+  return std::isfinite(energy) ? energy : 0;
+}
 
 }  // namespace
 
@@ -70,20 +75,22 @@ void CollisionLayer::advance_to(double t_end) {
 void CollisionLayer::advance_substep(double t_end) {
   const double h = t_end - time();
   auto& [set, resolution] = *contacts_;
+  simulation_.freeze_unsound();  // before any geometry query
   {
     const Stopwatch::WallLap lap(times_.collision.wall_s);
     set.find(world(), h);
   }
   {
     const Stopwatch::WallLap lap(times_.contact.wall_s);
-    report_.push_out_energy += resolution.push_out(world(), set, h);
-    report_.impact_loss += resolution.resolve_impacts(world(), set, h);
+    report_.push_out_energy += finite_or_zero(resolution.push_out(world(), set, h));
+    report_.impact_loss += finite_or_zero(resolution.resolve_impacts(world(), set, h));
     resolution.resolve_contacts(simulation_, set, h);
   }
   {
     const Stopwatch::WallLap lap(times_.simulation.wall_s);
     simulation_.advance_to(t_end);
   }
+  if (simulation_.quarantined() != quarantined_) rebase_energy();
 
   report_.contacts = 0;
   report_.max_penetration = 0;
@@ -93,6 +100,18 @@ void CollisionLayer::advance_substep(double t_end) {
   }
 }
 
+// A frozen body takes its energy with it: the balance of the others starts afresh.
+void CollisionLayer::rebase_energy() {
+  quarantined_ = simulation_.quarantined();
+  start_energy_ += energy() - expected_energy();
+}
+
+double CollisionLayer::expected_energy() const {
+  const WorkMeter& work = simulation_.work();
+  return start_energy_ + work.held() + work.contact() - report_.impact_loss +
+         report_.push_out_energy;
+}
+
 double CollisionLayer::energy() const {
   return kinetic_energy(world()) + potential_energy(world());
 }
@@ -100,11 +119,8 @@ double CollisionLayer::energy() const {
 double CollisionLayer::energy_error() {
   const double kinetic = kinetic_energy(world());
   energy_scale_.see(kinetic);
-  const WorkMeter& work = simulation_.work();
-  const double expected =
-      start_energy_ + work.held() + work.contact() - report_.impact_loss + report_.push_out_energy;
   const double scale = energy_scale_.value();
-  return scale > 0 ? (kinetic + potential_energy(world()) - expected) / scale : 0;
+  return scale > 0 ? (kinetic + potential_energy(world()) - expected_energy()) / scale : 0;
 }
 
 void CollisionLayer::hash_into(Hash64& hash) const {

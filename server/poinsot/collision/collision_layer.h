@@ -16,7 +16,7 @@ namespace poinsot {
 // What the layer knows of the last sub-step, and sums since the start.
 struct CollisionReport {
   std::uint32_t contacts = 0;  // points with a pushing impulse
-  double max_penetration = 0;  // [m] at the start of the last sub-step
+  double max_penetration = 0;  // [m] in the last sub-step, after push-out
   double impact_loss = 0;      // [J] kinetic energy taken out by impacts so far
   double push_out_energy = 0;  // [J] added by the removal of penetration so far
 };
@@ -57,6 +57,8 @@ class CollisionLayer {
 
  private:
   void advance_substep(double t_end);
+  void rebase_energy();
+  double expected_energy() const;  // [J] from the start, the work and the losses
 
   struct Contacts;  // the set and its resolution; keeps geometry out of the layers above
   SimulationLayer simulation_;
@@ -65,6 +67,7 @@ class CollisionLayer {
   CollisionReport report_;
   EnergyScale energy_scale_;
   double start_energy_;  // [J]
+  std::uint32_t quarantined_ = 0;
   CollisionTimes times_;
 };
 

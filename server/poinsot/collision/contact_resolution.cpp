@@ -8,7 +8,7 @@
 namespace poinsot {
 namespace {
 
-// Of the speed that the sub-step's own forces give: slower approaches are at rest, and do not
+// Of the speed that a sub-step of gravity gives: slower approaches are at rest, and do not
 // bounce.
 constexpr double kRestingSteps = 2.0;
 // Slower ones still are left to the standing contact, which stops them within the sub-step.
@@ -30,6 +30,10 @@ void turn(World& world, Eigen::Index i, const Vec3& angle) {
   const Quat q = orientation(world.y, i);
   orientation(world.y, i).coeffs() += quaternion_rate(q, angle);
   orientation(world.y, i).normalize();
+}
+
+double rotational_energy(const World& world, Eigen::Index i) {
+  return 0.5 * angular_velocity(world, i).dot(angular_momentum(world.y, i));
 }
 
 // Kinetic energy that an impulse pair takes out, given the velocities before and after [J].
@@ -82,9 +86,11 @@ double ContactResolution::push_out(World& world, ContactSet& set, double h) {
   for (Eigen::Index i = 0; i < world.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!world.moves(i) || (bodies_[k].v.isZero(0) && bodies_[k].omega.isZero(0))) continue;
+    const double spin_energy = rotational_energy(world, i);
     position(world.y, i) += h * bodies_[k].v;
     turn(world, i, h * bodies_[k].omega);
-    added -= world.mass[k] * h * world.gravity.dot(bodies_[k].v);
+    added += rotational_energy(world, i) - spin_energy -
+             world.mass[k] * h * world.gravity.dot(bodies_[k].v);
   }
   return added;
 }

@@ -1,10 +1,11 @@
 // What contacts do to a world in a sub-step, in three parts that follow one another:
 //
-//   push_out           removes penetration from positions, at bounded speed, leaving velocities
-//   alone resolve_impacts    approaching pairs: an impulse at an instant, with restitution and
-//   friction resolve_contacts   standing pairs: impulses λ that act as forces λ/h over the
-//   sub-step, so that
-//                      gravity, held wrenches and contact are integrated together
+// push_out: removes penetration from positions, at bounded speed.
+//
+// resolve_impacts: gives approaching pairs an impulse at an instant, with restitution and friction.
+//
+// resolve_contacts: gives standing pairs impulses λ that act as forces λ/h over the sub-step, so
+// that gravity, held wrenches and contact are integrated together.
 //
 // README.md, section "A sub-step", gives the equations.
 
@@ -25,7 +26,7 @@ class ContactResolution {
     solver_.sweeps = def.iterations;
   }
 
-  // Returns the potential energy added [J]. Updates the gaps.
+  // Returns the energy added [J]. Updates the gaps.
   double push_out(World& world, ContactSet& set, double h);
 
   // Returns the kinetic energy lost [J].

@@ -19,6 +19,18 @@ std::vector<bool> moving(std::span<const Collider> colliders, const World& world
   return result;
 }
 
+// No point of a body within `arm` [m] of its centre of mass is faster in the next h, unless another
+// body strikes it [m/s].
+double top_speed(const World& world, Eigen::Index i, double arm, double h) {
+  const auto k = static_cast<std::size_t>(i);
+  double gain = world.gravity.norm();
+  if (!world.held[k].is_zero()) {
+    const Wrench push = world.held[k].at(rotation(world, i));
+    gain += world.inv_mass[k] * push.force.norm() + arm * (inv_J_W(world, i) * push.torque).norm();
+  }
+  return linear_velocity(world, i).norm() + arm * angular_velocity(world, i).norm() + h * gain;
+}
+
 double smaller(double a, double b) {
   return std::min(a, b);
 }
@@ -70,7 +82,6 @@ void ContactSet::find(const World& world, double h) {
 }
 
 void ContactSet::place(const World& world, double h) {
-  const double g = world.gravity.norm();
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
     const Collider& collider = colliders_[i];
     const Eigen::Index body = collider.body;
@@ -78,10 +89,7 @@ void ContactSet::place(const World& world, double h) {
     if (std::isinf(collider.size)) continue;
     double speed = 0;
     if (world.moves(body))
-      speed = linear_velocity(world, body).norm() +
-              angular_velocity(world, body).norm() *
-                  (collider.in_body.c.norm() + collider.bounding_radius) +
-              g * h;
+      speed = top_speed(world, body, collider.in_body.c.norm() + collider.bounding_radius, h);
     travel_[i] = h * speed;
     reach_[i] = kLastingSteps * travel_[i] + 0.05 * collider.size;
     boxes_[i] = bounds(collider, poses_[i]).grown(travel_[i] + def_.contact_margin * collider.size);
@@ -150,7 +158,10 @@ void ContactSet::recall(double h) {
 
 void ContactSet::hash_into(Hash64& hash) const {
   hash.add(static_cast<std::uint64_t>(contacts_.size()));
+  hash.add(last_h_);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    hash.add(static_cast<std::uint64_t>(memories_[i].pair.a));
+    hash.add(static_cast<std::uint64_t>(memories_[i].pair.b));
     hash.add(contacts_[i].normal_impulse);
     for (const double x : contacts_[i].friction_impulse) hash.add(x);
     for (const double x : memories_[i].offset) hash.add(x);

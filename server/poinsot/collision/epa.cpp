@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace poinsot {
 namespace {
@@ -11,10 +12,10 @@ namespace {
 constexpr int kEpaPoints = kEpaFaces / 2 + 4;
 
 struct Face {
-  std::array<int, 3> corner;  // counter-clockwise seen from outside
-  Vec3 normal;                // unit, outward
-  double distance;            // [m] of its plane from the origin
-  bool alive;
+  std::array<int, 3> corner;     // counter-clockwise seen from outside
+  std::array<int, 3> neighbour;  // across the edge from corner e to the next
+  Vec3 normal;                   // unit, outward
+  double distance;               // [m] of its plane from the origin
 };
 
 // A convex polytope about the origin, grown point by point. Fixed capacity: no allocation.
@@ -26,93 +27,161 @@ class Polytope {
   bool start(const std::array<DifferencePoint, 4>& p) {
     for (const DifferencePoint& x : p) points_[static_cast<std::size_t>(point_count_++)] = x;
     const double volume = (w(1) - w(0)).cross(w(2) - w(0)).dot(w(3) - w(0));
-    const bool flip = volume > 0;
-    const auto face = [&](int i, int j, int k) { return flip ? add(i, k, j) : add(i, j, k); };
-    return face(0, 1, 2) && face(0, 3, 1) && face(0, 2, 3) && face(1, 3, 2);
-  }
-
-  const Face& nearest() const {
-    const Face* best = nullptr;
-    for (int f = 0; f < face_count_; ++f) {
-      const Face& face = faces_[static_cast<std::size_t>(f)];
-      if (face.alive && (!best || face.distance < best->distance)) best = &face;
-    }
-    return *best;
-  }
-
-  // Adds a point outside: faces that see it are replaced by a fan over their horizon. False when
-  // out of room or when rounding leaves no proper horizon; the polytope is then used up.
-  bool grow(const DifferencePoint& p) {
-    if (point_count_ == kEpaPoints) return false;
-    points_[static_cast<std::size_t>(point_count_)] = p;
-    horizon_count_ = 0;
-    for (int f = 0; f < face_count_; ++f) {
-      Face& face = faces_[static_cast<std::size_t>(f)];
-      if (!face.alive || face.normal.dot(p.w) - face.distance <= rounding_) continue;
-      face.alive = false;
-      for (std::size_t e = 0; e < 3; ++e)
-        if (!toggle(face.corner[e], face.corner[(e + 1) % 3])) return false;
-    }
-    if (!horizon_is_a_loop()) return false;
-    for (int e = 0; e < horizon_count_; ++e) {
-      const auto [from, to] = horizon_[static_cast<std::size_t>(e)];
-      if (!add(from, to, point_count_)) return false;
-    }
-    ++point_count_;
+    constexpr int kFaces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    for (const auto& f : kFaces)
+      if (volume > 0 ? add(f[0], f[2], f[1]) < 0 : add(f[0], f[1], f[2]) < 0) return false;
+    for (int f = 0; f < 4; ++f)
+      for (int g = 0; g < 4; ++g) join(f, g);
     return true;
+  }
+
+  int nearest() const {
+    const auto begin = distance_.begin();
+    return static_cast<int>(std::min_element(begin, begin + face_count_) - begin);
+  }
+
+  // Adds a point outside of a face: all faces that see it are replaced by a fan over their horizon.
+  // False when out of room or when rounding leaves no proper horizon; the polytope is then used up.
+  bool grow(int from, const DifferencePoint& p) {
+    if (point_count_ == kEpaPoints) return false;
+    see(from, p.w);
+    if (!find_horizon()) {  // seen faces in a ring about unseen ones, flat with the point
+      see_islands(p.w);
+      if (!find_horizon()) return false;
+    }
+    for (int i = 0; i < seen_count_; ++i) kill(seen_[static_cast<std::size_t>(i)]);
+    points_[static_cast<std::size_t>(point_count_)] = p;
+    return fan_out();
   }
 
   const DifferencePoint& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  const Face& face(int f) const { return faces_[static_cast<std::size_t>(f)]; }
 
  private:
-  const Vec3& w(int i) const { return point(i).w; }
+  static constexpr double kDead = std::numeric_limits<double>::infinity();
+  struct Edge {
+    int from, to;
+    int beyond;  // the unseen face across it
+  };
 
-  bool add(int i, int j, int k) {
+  Face& face(int f) { return faces_[static_cast<std::size_t>(f)]; }
+  const Vec3& w(int i) const { return point(i).w; }
+  bool is_alive(int f) const { return distance_[static_cast<std::size_t>(f)] != kDead; }
+  bool is_seen(int f) const { return seen_at_[static_cast<std::size_t>(f)] == point_count_; }
+  double height(int f, const Vec3& p) const { return face(f).normal.dot(p) - face(f).distance; }
+
+  // The new face, or −1 without room or area.
+  int add(int i, int j, int k) {
     const Vec3 n = (w(j) - w(i)).cross(w(k) - w(i));
     const double length = n.norm();
-    if (length <= rounding_ * rounding_) return false;
+    if (length <= rounding_ * rounding_) return -1;
+    if (free_count_ == 0 && face_count_ == kEpaFaces) return -1;
+    const int f = free_count_ > 0 ? free_[static_cast<std::size_t>(--free_count_)] : face_count_++;
     const Vec3 normal = n / length;
-    int slot = 0;
-    while (slot < face_count_ && faces_[static_cast<std::size_t>(slot)].alive) ++slot;
-    if (slot == kEpaFaces) return false;
-    face_count_ = std::max(face_count_, slot + 1);
-    faces_[static_cast<std::size_t>(slot)] = {{i, j, k}, normal, normal.dot(w(i)), true};
-    return true;
+    face(f) = {{i, j, k}, {-1, -1, -1}, normal, normal.dot(w(i))};
+    distance_[static_cast<std::size_t>(f)] = face(f).distance;
+    seen_at_[static_cast<std::size_t>(f)] = 0;
+    return f;
+  }
+  void kill(int f) {
+    distance_[static_cast<std::size_t>(f)] = kDead;
+    free_[static_cast<std::size_t>(free_count_++)] = f;
   }
 
-  // An edge seen from both sides is inside the visible region, not on its horizon.
-  bool toggle(int from, int to) {
-    for (int e = 0; e < horizon_count_; ++e) {
-      auto& edge = horizon_[static_cast<std::size_t>(e)];
-      if (edge.first == to && edge.second == from) {
-        edge = horizon_[static_cast<std::size_t>(--horizon_count_)];
-        return true;
+  void join(int f, int g) {
+    for (std::size_t e = 0; e < 3; ++e)
+      for (std::size_t d = 0; d < 3; ++d)
+        if (face(f).corner[e] == face(g).corner[(d + 1) % 3] &&
+            face(f).corner[(e + 1) % 3] == face(g).corner[d])
+          face(f).neighbour[e] = g;
+  }
+
+  void mark_seen(int f) {
+    seen_at_[static_cast<std::size_t>(f)] = point_count_;
+    seen_[static_cast<std::size_t>(seen_count_++)] = f;
+  }
+
+  // Lists the faces that see the point and connect to `from`.
+  void see(int from, const Vec3& p) {
+    seen_count_ = 0;
+    mark_seen(from);
+    for (int i = 0; i < seen_count_; ++i)
+      for (const int next : face(seen_[static_cast<std::size_t>(i)]).neighbour)
+        if (!is_seen(next) && height(next, p) > rounding_) mark_seen(next);
+  }
+
+  // Also lists what does not connect to the far side over unseen faces.
+  void see_islands(const Vec3& p) {
+    int far = -1;
+    for (int f = 0; f < face_count_; ++f)
+      if (is_alive(f) && !is_seen(f) && (far < 0 || height(f, p) < height(far, p))) far = f;
+    if (far < 0) return;
+    std::array<bool, static_cast<std::size_t>(kEpaFaces)> is_far{};
+    std::array<int, static_cast<std::size_t>(kEpaFaces)> open;
+    int count = 0;
+    open[static_cast<std::size_t>(count++)] = far;
+    is_far[static_cast<std::size_t>(far)] = true;
+    for (int i = 0; i < count; ++i) {
+      for (const int next : face(open[static_cast<std::size_t>(i)]).neighbour) {
+        if (is_seen(next) || is_far[static_cast<std::size_t>(next)]) continue;
+        is_far[static_cast<std::size_t>(next)] = true;
+        open[static_cast<std::size_t>(count++)] = next;
       }
     }
-    if (horizon_count_ == kEpaFaces) return false;
-    horizon_[static_cast<std::size_t>(horizon_count_++)] = {from, to};
-    return true;
+    for (int f = 0; f < face_count_; ++f)
+      if (is_alive(f) && !is_seen(f) && !is_far[static_cast<std::size_t>(f)]) mark_seen(f);
   }
 
-  // Sorts the horizon head to tail; false if it is not one closed loop.
-  bool horizon_is_a_loop() {
-    if (horizon_count_ < 3) return false;
-    for (int e = 1; e < horizon_count_; ++e) {
-      const int head = horizon_[static_cast<std::size_t>(e - 1)].second;
-      int next = e;
-      while (next < horizon_count_ && horizon_[static_cast<std::size_t>(next)].first != head)
-        ++next;
-      if (next == horizon_count_) return false;
-      std::swap(horizon_[static_cast<std::size_t>(e)], horizon_[static_cast<std::size_t>(next)]);
+  // The edges between seen and unseen faces, head to tail; false if they are not one closed loop.
+  bool find_horizon() {
+    horizon_count_ = 0;
+    for (int i = 0; i < seen_count_; ++i) {
+      const Face& f = face(seen_[static_cast<std::size_t>(i)]);
+      for (std::size_t e = 0; e < 3; ++e)
+        if (!is_seen(f.neighbour[e]))
+          horizon_[static_cast<std::size_t>(horizon_count_++)] = {
+              f.corner[e], f.corner[(e + 1) % 3], f.neighbour[e]};
     }
-    return horizon_[static_cast<std::size_t>(horizon_count_ - 1)].second == horizon_[0].first;
+    if (horizon_count_ < 3) return false;
+    const auto begin = horizon_.begin(), end = begin + horizon_count_;
+    for (auto edge = begin; edge + 1 != end; ++edge) {
+      const auto next =
+          std::find_if(edge + 1, end, [&](const Edge& x) { return x.from == edge->to; });
+      if (next == end) return false;
+      std::swap(*(edge + 1), *next);
+    }
+    return (end - 1)->to == begin->from;
+  }
+
+  // New faces from the horizon to the newest point, joined to each other and to what is beyond.
+  bool fan_out() {
+    int first = -1, last = -1;
+    for (int i = 0; i < horizon_count_; ++i) {
+      const Edge& edge = horizon_[static_cast<std::size_t>(i)];
+      const int fan = add(edge.from, edge.to, point_count_);
+      if (fan < 0) return false;
+      face(fan).neighbour = {edge.beyond, -1, last};
+      Face& beyond = face(edge.beyond);
+      for (std::size_t e = 0; e < 3; ++e)
+        if (beyond.corner[e] == edge.to) beyond.neighbour[e] = fan;
+      if (last >= 0) face(last).neighbour[1] = fan;
+      if (first < 0) first = fan;
+      last = fan;
+    }
+    face(first).neighbour[2] = last;
+    face(last).neighbour[1] = first;
+    ++point_count_;
+    return true;
   }
 
   double rounding_;
   std::array<DifferencePoint, static_cast<std::size_t>(kEpaPoints)> points_;
   std::array<Face, static_cast<std::size_t>(kEpaFaces)> faces_;
-  std::array<std::pair<int, int>, static_cast<std::size_t>(kEpaFaces)> horizon_;
-  int point_count_ = 0, face_count_ = 0, horizon_count_ = 0;
+  std::array<double, static_cast<std::size_t>(kEpaFaces)> distance_;  // of faces; infinite: dead
+  std::array<int, static_cast<std::size_t>(kEpaFaces)> seen_at_;      // by which point, last
+  std::array<int, static_cast<std::size_t>(kEpaFaces)> seen_, free_;
+  std::array<Edge, 3 * static_cast<std::size_t>(kEpaFaces)> horizon_;
+  int point_count_ = 0, face_count_ = 0, seen_count_ = 0, free_count_ = 0, horizon_count_ = 0;
 };
 
 Vec3 across(const Vec3& along) {  // some unit vector perpendicular to a unit vector
@@ -200,6 +269,22 @@ void blend_foot(const Polytope& polytope, const Face& face, Penetration& result)
   }
 }
 
+// Where many directions are all but equal, as deep inside a cone on its axis, the polytope is used
+// up on the ring of them. The best it found is then improved on its own: moved apart along it, the
+// cores' nearest points give a better direction. Only the upper bound gains.
+void improve(const ConvexPair& pair, Penetration& best) {
+  for (int turn = 0; turn < 4; ++turn) {
+    ConvexPair apart = pair;
+    const Vec3 away = (best.depth + kEpaApart * pair.small) * best.normal;
+    apart.c -= away;
+    const GjkResult near = gjk(apart);
+    if (!near.separated) return;
+    const double depth = difference_support(pair, -near.normal).w.dot(-near.normal);
+    if (depth >= best.depth) return;
+    best = {depth, best.lower, near.normal, near.on_a, near.on_b + away};
+  }
+}
+
 }  // namespace
 
 Penetration penetration(const ConvexPair& pair, const GjkResult& ended) {
@@ -213,7 +298,8 @@ Penetration penetration(const ConvexPair& pair, const GjkResult& ended) {
   const double gap = pair.at_least_rounding(kEpaGap * pair.small);
   double lower = -std::numeric_limits<double>::infinity();
   for (;;) {
-    const Face& face = polytope.nearest();
+    const int nearest = polytope.nearest();
+    const Face& face = std::as_const(polytope).face(nearest);
     lower = std::max(lower, face.distance);
     const Vec3 outward = face.normal;
     const DifferencePoint p = difference_support(pair, outward);
@@ -223,9 +309,11 @@ Penetration penetration(const ConvexPair& pair, const GjkResult& ended) {
       best.normal = -outward;
       blend_foot(polytope, face, best);
     }
-    if (upper - lower <= gap || !polytope.grow(p)) break;
+    if (best.depth - lower <= gap || !polytope.grow(nearest, p)) break;
   }
   best.lower = std::min(lower, best.depth);
+  if (best.depth - best.lower > gap) improve(pair, best);
+  best.lower = std::min(best.lower, best.depth);
   return best;
 }
 

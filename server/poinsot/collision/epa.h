@@ -15,8 +15,9 @@
 
 namespace poinsot {
 
-inline constexpr double kEpaGap = 1e-9;   // [-] upper − lower bound, of the smaller radius
-inline constexpr double kEpaFlat = 1e-9;  // [-] thinner differences, likewise, have no volume
+inline constexpr double kEpaGap = 1e-9;    // [-] upper − lower bound, of the smaller radius
+inline constexpr double kEpaFlat = 1e-9;   // [-] thinner differences, likewise, have no volume
+inline constexpr double kEpaApart = 0.01;  // [-] likewise: the gap at which a direction is improved
 inline constexpr int kEpaFaces = 512;
 
 struct Penetration {

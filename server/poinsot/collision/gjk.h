@@ -20,6 +20,8 @@ namespace poinsot {
 
 inline constexpr double kGjkGap = 1e-12;    // [-] upper − lower bound, of the smaller radius
 inline constexpr double kGjkTouch = 1e-10;  // [-] closer than this, of the smaller radius: touching
+inline constexpr double kGjkNear = 1e-5;    // [-] below this, likewise, an unsure distance, whose
+inline constexpr double kGjkSure = 1e-9;    // [-] bounds are farther apart than this, is none
 inline constexpr double kRounding = 4e-15;  // [-] of the scale: what positions are known to
 inline constexpr int kGjkIterations = 128;
 
@@ -57,11 +59,12 @@ struct DifferencePoint {
 DifferencePoint difference_support(const ConvexPair& pair, const Vec3& d);
 
 struct GjkResult {
-  bool separated = false;  // the cores do not touch; distances and normal are valid only then
-  double distance = 0;     // [m] upper bound
-  double lower = 0;        // [m] lower bound
-  Vec3 normal;             // unit, from B to A, in A's frame
-  Vec3 on_a, on_b;         // [m] nearest points, in A's frame; not valid when size is 4
+  bool separated =
+      false;            // proven: the cores do not touch; distances and normal are valid only then
+  double distance = 0;  // [m] upper bound
+  double lower = 0;     // [m] lower bound
+  Vec3 normal;          // unit, from B to A, in A's frame: the direction that proves `lower`
+  Vec3 on_a, on_b;      // [m] nearest points, in A's frame; not valid when size is 4
   std::array<DifferencePoint, 4> simplex;  // where it ended: the start of the penetration search
   int size = 0;
   int iterations = 0;

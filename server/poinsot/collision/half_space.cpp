@@ -4,7 +4,7 @@ namespace poinsot {
 
 void shape_on_half_space(const Collider& shape, const Vec3& plane_normal, double plane_offset,
                          double margin, Manifold& manifold) {
-  PointSet set(kSameGap * shape.size);
+  PointSet set(plane_normal, kSameGap * shape.size);
   const auto gap_of = [&](const Vec3& on_core) {
     return plane_normal.dot(on_core) - plane_offset - shape.core_radius;
   };
@@ -17,7 +17,7 @@ void shape_on_half_space(const Collider& shape, const Vec3& plane_normal, double
   // Not always a corner of the facing feature: a rim's may lie between two of its octagon.
   const Vec3 deepest = support(shape, -plane_normal);
   if (set.count() == 0 || gap_of(deepest) < set.least_gap() - kSameGap * shape.size) add(deepest);
-  set.reduce_into(plane_normal, manifold);
+  set.reduce_into(manifold);
 }
 
 }  // namespace poinsot

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace poinsot {
 namespace {
@@ -138,7 +137,7 @@ void build_manifold(const ConvexPair& pair, const Witness& witness, double margi
   if (witness.gap > margin) return;
   const double same_gap = kSameGap * std::min(pair.a.size, pair.b.size);
   const Facing facing(pair, witness.normal, margin);
-  PointSet set(same_gap);
+  PointSet set(facing.normal, same_gap);
   if (facing.alignment() >= kFacing) {
     clip_to_face(facing, set);
   } else if (facing.reference.count == 2 && facing.incident.count == 2) {
@@ -149,67 +148,93 @@ void build_manifold(const ConvexPair& pair, const Witness& witness, double margi
     const double aside = 0.5 * (pair.b.core_radius - pair.a.core_radius);
     set.add(0.5 * (witness.on_a + witness.on_b) + aside * facing.normal, witness.gap);
   }
-  set.reduce_into(facing.normal, manifold);
+  set.reduce_into(manifold);
+}
+
+Choice choose_points(std::span<const Candidate> candidates, double same_gap) {
+  Choice choice;
+  if (candidates.empty()) return choice;
+  double least = candidates[0].gap;
+  for (const Candidate& c : candidates) least = std::min(least, c.gap);
+  std::size_t deepest = 0;
+  while (candidates[deepest].gap > least + same_gap) ++deepest;
+  choice.index[0] = deepest;
+  choice.count = 1;
+  // Appends the candidate of the largest measure, the first on a tie, if that is above `bar`.
+  const auto append_best = [&](double bar, auto&& measure) {
+    std::size_t best = candidates.size();
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const double value = measure(candidates[i]);
+      if (value <= bar) continue;
+      bar = value * (1 + 1e-9);
+      best = i;
+    }
+    if (best == candidates.size()) return false;
+    choice.index[static_cast<std::size_t>(choice.count++)] = best;
+    return true;
+  };
+  const Candidate& p = candidates[deepest];
+  const auto distance2 = [](const Candidate& a, const Candidate& b) {
+    return (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v);
+  };
+  const auto area = [](const Candidate& a, const Candidate& b, const Candidate& c) {
+    return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+  };
+  if (!append_best(same_gap * same_gap, [&](const Candidate& c) { return distance2(c, p); }))
+    return choice;
+  const Candidate& q = candidates[choice.index[1]];
+  const double length2 = distance2(p, q), no_area = same_gap * std::sqrt(length2);
+  if (!append_best(no_area, [&](const Candidate& c) { return std::abs(area(p, q, c)); })) {
+    append_best(length2 + no_area, [&](const Candidate& c) { return distance2(c, q); });
+    return choice;
+  }
+  // Beyond the triangle's sides, whichever way it turns.
+  const Candidate& r = candidates[choice.index[2]];
+  const double turn = area(p, q, r) < 0 ? 1 : -1;
+  append_best(no_area, [&](const Candidate& c) {
+    return std::max({turn * area(p, q, c), turn * area(q, r, c), turn * area(r, p, c)});
+  });
+  return choice;
+}
+
+PointSet::PointSet(const Vec3& normal, double same_gap) : normal_(normal), same_gap_(same_gap) {
+  Eigen::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  u_ = normal.cross(Vec3::Unit(least)).normalized();
+  v_ = normal.cross(u_);
 }
 
 void PointSet::add(const Vec3& point, double gap) {
+  auto slot = static_cast<std::size_t>(count_);
   if (count_ < kCapacity) {
-    points_[static_cast<std::size_t>(count_++)] = {point, gap};
-    return;
+    ++count_;
+  } else {
+    const auto shallowest =
+        std::max_element(candidates_.begin(), candidates_.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.gap < b.gap; });
+    if (gap >= shallowest->gap) return;
+    slot = static_cast<std::size_t>(shallowest - candidates_.begin());
   }
-  auto shallowest = std::max_element(
-      points_.begin(), points_.end(),
-      [](const ManifoldPoint& a, const ManifoldPoint& b) { return a.gap < b.gap; });
-  if (gap < shallowest->gap) *shallowest = {point, gap};
+  points_[slot] = point;
+  candidates_[slot] = {u_.dot(point), v_.dot(point), gap};
 }
 
 double PointSet::least_gap() const {
-  double least = points_[0].gap;
+  double least = candidates_[0].gap;
   for (int i = 1; i < count_; ++i)
-    least = std::min(least, points_[static_cast<std::size_t>(i)].gap);
+    least = std::min(least, candidates_[static_cast<std::size_t>(i)].gap);
   return least;
 }
 
-void PointSet::reduce_into(const Vec3& normal, Manifold& manifold) const {
-  manifold.normal = normal;
-  manifold.count = 0;
-  if (count_ == 0) return;
-  const std::span<const ManifoldPoint> points(points_.data(), static_cast<std::size_t>(count_));
-  const double deep = least_gap() + same_gap_;
-  manifold.points[0] = *std::find_if(points.begin(), points.end(),
-                                     [&](const ManifoldPoint& p) { return p.gap <= deep; });
-  manifold.count = 1;
-  // Appends the point of the largest measure, the first on a tie, if that is above `least`.
-  const auto keep_best = [&](double least, auto&& measure) {
-    const ManifoldPoint* best = nullptr;
-    for (const ManifoldPoint& p : points) {
-      const double value = measure(p.point);
-      if (value <= least) continue;
-      least = value * (1 + 1e-9);
-      best = &p;
-    }
-    if (best) manifold.points[static_cast<std::size_t>(manifold.count++)] = *best;
-    return best != nullptr;
-  };
-  const Vec3& first = manifold.points[0].point;
-  const auto beside = [&](const Vec3& p) {
-    const Vec3 d = p - first;
-    return d.squaredNorm() - d.dot(normal) * d.dot(normal);
-  };
-  if (!keep_best(same_gap_ * same_gap_, beside)) return;
-  const Vec3& second = manifold.points[1].point;
-  const auto area = [&](const Vec3& from, const Vec3& to, const Vec3& p) {
-    return (to - from).cross(p - from).dot(normal);
-  };
-  const double no_area = same_gap_ * (second - first).norm();
-  if (!keep_best(no_area, [&](const Vec3& p) { return std::abs(area(first, second, p)); })) return;
-  // Beyond the triangle's sides, whichever way it turns.
-  const Vec3& third = manifold.points[2].point;
-  const double turn = area(first, second, third) < 0 ? 1 : -1;
-  keep_best(no_area, [&](const Vec3& p) {
-    return std::max({turn * area(first, second, p), turn * area(second, third, p),
-                     turn * area(third, first, p)});
-  });
+void PointSet::reduce_into(Manifold& manifold) const {
+  manifold.normal = normal_;
+  const Choice choice =
+      choose_points({candidates_.data(), static_cast<std::size_t>(count_)}, same_gap_);
+  manifold.count = choice.count;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(choice.count); ++k) {
+    const std::size_t i = choice.index[k];
+    manifold.points[k] = {points_[i], candidates_[i].gap};
+  }
 }
 
 }  // namespace poinsot

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "poinsot/collision/collider.h"
 #include "poinsot/collision/gjk.h"
@@ -45,25 +46,40 @@ void build_manifold(const ConvexPair& pair, const Witness& witness, double margi
 
 inline constexpr double kSameGap = 1e-7;  // [-] of the smaller body: gaps that count as equal
 
-// Candidates for a manifold, reduced to the four that span it best: the deepest, the farthest from
-// it, the one that spans the largest triangle with both, and the farthest beyond that triangle. Of
-// points equally deep to within `same_gap` [m] the first is the deepest, so that the choice does
-// not jump with the last bits of a resting body.
+// A candidate for a manifold: its place in the contact plane, in any two perpendicular axes, and
+// its gap, all in metres.
+struct Candidate {
+  double u, v, gap;
+};
+
+// Which up to four candidates span a manifold best: the deepest, the farthest from it, the one that
+// spans the largest triangle with both, and the farthest beyond that triangle; of points on a line
+// its ends and the deepest. Of candidates equally deep to within `same_gap` [m] the first is the
+// deepest, so that the choice does not jump with the last bits of a resting body.
+struct Choice {
+  std::array<std::size_t, Manifold::kMaxPoints> index;
+  int count = 0;
+};
+Choice choose_points(std::span<const Candidate> candidates, double same_gap);
+
+// Candidates in space, gathered for one manifold.
 class PointSet {
  public:
   static constexpr int kCapacity = 40;
 
-  explicit PointSet(double same_gap) : same_gap_(same_gap) {}
+  PointSet(const Vec3& normal, double same_gap);
 
   void add(const Vec3& point, double gap);  // when full, the shallowest gives way
   int count() const { return count_; }
   double least_gap() const;
-  void reduce_into(const Vec3& normal, Manifold& manifold) const;
+  void reduce_into(Manifold& manifold) const;
 
  private:
-  std::array<ManifoldPoint, static_cast<std::size_t>(kCapacity)> points_;
-  int count_ = 0;
+  Vec3 normal_, u_, v_;
   double same_gap_;
+  std::array<Vec3, static_cast<std::size_t>(kCapacity)> points_;
+  std::array<Candidate, static_cast<std::size_t>(kCapacity)> candidates_;
+  int count_ = 0;
 };
 
 }  // namespace poinsot

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <utility>
 
 #include "poinsot/collision/broad_phase.h"
 #include "poinsot/collision/collision_layer.h"
@@ -31,19 +33,25 @@ std::vector<SceneFault> find_overlaps(const Scene& scene) {
     if (!std::isinf(colliders[i].size)) boxes[i] = bounds(colliders[i], poses[i]);
   }
 
-  std::vector<SceneFault> faults;
+  // The deepest of each pair of bodies.
+  std::map<std::pair<Eigen::Index, Eigen::Index>, double> depths;
   BroadPhase broad_phase(colliders, moves);
   const std::vector<double> reach(colliders.size(), 0.0);
   for (const auto& [i, j] : broad_phase.pairs(boxes, reach)) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     const double depth = -find_gap(colliders[a], poses[a], colliders[b], poses[b]).value;
     if (depth <= scene.collision.overlap * std::min(colliders[a].size, colliders[b].size)) continue;
-    const BodyDef& first = scene.bodies[static_cast<std::size_t>(colliders[a].body)];
-    const BodyDef& second = scene.bodies[static_cast<std::size_t>(colliders[b].body)];
+    double& deepest = depths[{colliders[a].body, colliders[b].body}];
+    deepest = std::max(deepest, depth);
+  }
+  std::vector<SceneFault> faults;
+  for (const auto& [pair, depth] : depths) {
+    const BodyDef& first = scene.bodies[static_cast<std::size_t>(pair.first)];
+    const BodyDef& second = scene.bodies[static_cast<std::size_t>(pair.second)];
     faults.push_back({second.where,
                       "body '" + second.name + "' overlaps '" + first.name + "' by " +
                           depth_in_words(depth) + "; move it, or set allow_overlap: true",
-                      "bodies[" + std::to_string(colliders[b].body) + "]"});
+                      "bodies[" + std::to_string(pair.second) + "]"});
   }
   return faults;
 }

@@ -1,5 +1,6 @@
 #include "poinsot/collision/proximity.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "poinsot/base/check.h"
@@ -103,7 +104,7 @@ Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pos
     return {gap, gap};
   }
   const CoreQuery query = query_cores({a, pose_a, b, pose_b});
-  return {query.witness.gap, query.lower};
+  return {query.witness.gap, std::min(query.lower, query.witness.gap)};
 }
 
 }  // namespace poinsot

@@ -48,6 +48,16 @@ bool touch(Solver& solver, const fcl::Sphered& sphere, const fcl::Transform3d& X
   return false;
 }
 
+// FCL's normal, turned round. It is zero or noise where the centre lies on that of a sphere or on a
+// capsule's axis: beside the axis it is made perpendicular, and x is as short a way out as any.
+Vec3 outward_normal(const fcl::ContactPointd& contact, const Shape& other, const Vec3& center) {
+  Vec3 n = -contact.normal;
+  const auto* capsule = std::get_if<Capsule>(&other);
+  if (capsule && std::abs(center.z()) <= 0.5 * capsule->length)
+    n = Vec3(center.x(), center.y(), 0).normalized();
+  return n.squaredNorm() > 0.25 ? n : Vec3(Vec3::UnitX());
+}
+
 }  // namespace
 
 void sphere_contact_fcl(const Collider& sphere, const Pose& pose, const Collider& other,
@@ -58,13 +68,12 @@ void sphere_contact_fcl(const Collider& sphere, const Pose& pose, const Collider
   // A sphere grown by the margin touches whatever is nearer than the margin: FCL reports only what
   // penetrates. Positions relative to the other shape, so that far from the origin nothing is lost.
   const Pose relative = pose_other.inverse() * pose;
+  if (!relative.c.allFinite()) return;  // FCL would abort the process
   if (!touch(solver, fcl::Sphered(radius + margin), to_fcl(relative), other.shape,
              fcl::Transform3d::Identity()))
     return;
   const fcl::ContactPointd& contact = solver.contacts.front();
-  // FCL's normal points from the sphere to the other; coincident centres leave it zero.
-  const bool has_normal = contact.normal.squaredNorm() > 0.25;
-  const Vec3 n = has_normal ? Vec3(-contact.normal) : Vec3(Vec3::UnitZ());
+  const Vec3 n = outward_normal(contact, other.shape, relative.c);
   const double gap = margin - contact.penetration_depth;
   manifold.normal = pose_other.q * n;
   manifold.count = 1;

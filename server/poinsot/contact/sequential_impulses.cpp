@@ -40,10 +40,15 @@ void SequentialImpulses::apply(const Prepared& p, const Row& row, double impulse
                                std::span<ContactBody> bodies) {
   ContactBody& a = bodies[static_cast<std::size_t>(p.a)];
   ContactBody& b = bodies[static_cast<std::size_t>(p.b)];
-  a.v += (p.inv_mass_a * impulse) * row.direction;
-  a.omega += impulse * row.turn_a;
-  b.v -= (p.inv_mass_b * impulse) * row.direction;
-  b.omega -= impulse * row.turn_b;
+  // A body that does not move is shared by many: an infinite impulse must not make it 0·∞.
+  if (p.inv_mass_a > 0) {
+    a.v += (p.inv_mass_a * impulse) * row.direction;
+    a.omega += impulse * row.turn_a;
+  }
+  if (p.inv_mass_b > 0) {
+    b.v -= (p.inv_mass_b * impulse) * row.direction;
+    b.omega -= impulse * row.turn_b;
+  }
 }
 
 void SequentialImpulses::prepare(std::span<const ContactBody> bodies,
@@ -122,6 +127,13 @@ void SequentialImpulses::solve(std::span<ContactBody> bodies, std::span<Contact>
     if (contacts[i].friction > 0) visit_friction(prepared_[i], contacts[i].friction, bodies);
   for (std::size_t i = 0; i < n; ++i) {
     const Prepared& p = prepared_[i];
+    const bool sound = std::isfinite(p.impulse) && std::isfinite(p.friction_impulse[0]) &&
+                       std::isfinite(p.friction_impulse[1]);
+    if (!sound) {
+      contacts[i].normal_impulse = 0;
+      contacts[i].friction_impulse.setZero();
+      continue;
+    }
     contacts[i].normal_impulse = p.impulse;
     contacts[i].friction_impulse = p.friction_impulse[0] * p.tangent[0].direction +
                                    p.friction_impulse[1] * p.tangent[1].direction;

@@ -24,7 +24,7 @@ class SequentialImpulses {
   // The relative velocity of a contact's points along its normal after the solve is at least
   // target[i] [m/s] (up to the sweeps' residual). Starts from the contacts' impulses and leaves the
   // new ones there; velocities of the bodies are changed accordingly, the starting impulses
-  // included.
+  // included. An impulse that is not finite stays out of the contacts.
   void solve(std::span<ContactBody> bodies, std::span<Contact> contacts,
              std::span<const double> target);
 

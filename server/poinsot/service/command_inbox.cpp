@@ -1,5 +1,6 @@
 #include "poinsot/service/command_inbox.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace poinsot {
@@ -9,6 +10,10 @@ bool CommandInbox::push(Command&& command, std::vector<Command>& queue) {
   {
     const std::lock_guard lock(mutex_);
     if (queue.size() >= kCapacity) {
+      const auto same = [&](const Command& c) {
+        return c.client == command.client && c.seq == command.seq;
+      };
+      if (std::any_of(queue.begin(), queue.end(), same)) return true;  // sent again: it waits
       ++full_;
       return false;
     }

@@ -33,8 +33,8 @@ void CommandReceiver::stop() {
 void CommandReceiver::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     waiter_.wait(1s);
+    drain(control_topic_, control_);  // first: a flood of pushes cannot shut out a pause
     drain(wrench_topic_, wrench_);
-    drain(control_topic_, control_);
   }
 }
 
@@ -44,7 +44,9 @@ void CommandReceiver::drain(Subscriber<Command>& topic, Command& command) {
     inbox_.count_malformed();
     refuse(m.client, m.seq, ResultCode::invalid_value, m.reason);
   };
-  while (topic.take(command, malformed))
+  // Bounded, so that neither the other topic nor a stop waits for a flood to end; what is left
+  // wakes the waiter at once.
+  for (std::size_t n = 0; n < CommandInbox::kCapacity && topic.take(command, malformed); ++n)
     if (!inbox_.push(command))
       refuse(command.client, command.seq, ResultCode::inbox_full,
              std::to_string(CommandInbox::kCapacity) +

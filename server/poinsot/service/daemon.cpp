@@ -40,7 +40,7 @@ Daemon::Daemon(Scene scene, const DaemonOptions& options, Logger logger,
       loop_(layer_, inbox_, outbox_, loop_options(options)),
       participant_(prepare_bus(options, layer_.snapshot().bodies.size(), logger_)),
       publisher_(participant_, world_, outbox_,
-                 body_infos(layer_.scene(), layer_.world(), session_), session_),
+                 body_infos(layer_.scene(), layer_.world(), session_), session_, logger_),
       receiver_(
           participant_, world_, inbox_, outbox_, [this] { return loop_.epoch(); }, logger_) {
   logger_->info("started world={} session={:016x} domain={} reach={} bodies={}",

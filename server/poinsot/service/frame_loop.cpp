@@ -54,7 +54,25 @@ void FrameLoop::run(const std::stop_token& stop) {
     report_now_and_then();
   }
   end_step(ResultCode::operation_failed, "the daemon ends");
+  refuse_the_rest();
   report(RunState::quitting);
+}
+
+// Every command gets its reply, those that came too late to act as well.
+void FrameLoop::refuse_the_rest() {
+  inbox_.take(batch_);
+  answer_known();
+  for (const RunControl& control : batch_.controls)
+    answer(control, ResultCode::operation_failed, "the daemon ends");
+  for (const WrenchCommand& command : batch_.wrenches) {
+    Reply reply;
+    reply.client = command.client;
+    reply.seq = command.seq;
+    reply.epoch = layer_.epoch();
+    reply.code = ResultCode::operation_failed;
+    reply.message = "the daemon ends";
+    send(reply);
+  }
 }
 
 void FrameLoop::advance() {
@@ -97,7 +115,7 @@ void FrameLoop::answer_known() {
       if (reply) outbox_.push(*reply);
       return reply != nullptr;
     });
-    std::sort(commands.begin(), commands.end(), by_key);
+    std::stable_sort(commands.begin(), commands.end(), by_key);  // the first to arrive counts
     commands.erase(std::unique(commands.begin(), commands.end(), same_key), commands.end());
   };
   settle(batch_.wrenches);
@@ -138,7 +156,7 @@ void FrameLoop::obey(const RunControl& control) {
   if (step_ && same_key(step_->control, control)) return;  // sent again; answered when done
   if (const auto refusal = check(control)) return answer(control, refusal->code, refusal->reason);
   if (control.action == ControlAction::step) {
-    step_ = Step{control, layer_.frame() + 1, layer_.frame() + control.frames};
+    step_ = Step{control, layer_.frame() + control.frames};
     return;
   }
   end_step(

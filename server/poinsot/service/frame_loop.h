@@ -48,12 +48,12 @@ class FrameLoop {
  private:
   struct Step {
     RunControl control;
-    std::uint64_t first;   // frame
     std::uint64_t target;  // frame
   };
 
   bool idle() const { return paused_ && !step_; }
   bool done() const { return options_.frames != 0 && frames_ >= options_.frames; }
+  void refuse_the_rest();
   void advance();
   void hand_over();
 

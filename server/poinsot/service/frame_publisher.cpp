@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "poinsot/wire/topics.h"
+
 namespace poinsot {
 namespace {
 
@@ -17,14 +19,16 @@ std::int64_t now_utc_ns() {
 }  // namespace
 
 FramePublisher::FramePublisher(Participant& participant, const std::string& world, Outbox& outbox,
-                               std::vector<BodyInfo> scene, std::uint64_t session)
+                               std::vector<BodyInfo> scene, std::uint64_t session, Logger logger)
     : outbox_(outbox),
       session_(session),
       scene_(std::move(scene)),
       scene_topic_(participant, world),
       poses_topic_(participant, world),
       report_topic_(participant, world),
-      reply_topic_(participant, world) {
+      reply_topic_(participant, world),
+      logger_(std::move(logger)),
+      failures_(std::chrono::seconds(1)) {
   // These change places with the outbox's: the same room on both sides, or the loop would allocate.
   snapshot_.bodies.reserve(scene_.size());
   replies_.reserve(Outbox::kReplies);
@@ -37,7 +41,7 @@ void FramePublisher::stop() {
 }
 
 void FramePublisher::run(const std::stop_token& stop) {
-  for (const BodyInfo& body : scene_) scene_topic_.write(body);
+  for (const BodyInfo& body : scene_) write(scene_topic_, body);
   while (!stop.stop_requested()) {
     const bool quiet = !outbox_.wait(stop, kLookForReaders);
     send(quiet);
@@ -54,11 +58,11 @@ void FramePublisher::send(bool quiet) {
       report_.session = session_;
       report_.snapshots_dropped = outbox_.snapshots_dropped();
       report_.times.publishing = elapsed();
-      report_topic_.write(report_);
+      write(report_topic_, report_);
     }
     // Last: who reads a reply finds the frame and the report that it speaks of.
     if (outbox_.take(replies_))
-      for (const Reply& reply : replies_) reply_topic_.write(reply);
+      for (const Reply& reply : replies_) write(reply_topic_, reply);
   }
   const std::lock_guard lock(mutex_);
   elapsed_ += lap;
@@ -77,7 +81,14 @@ void FramePublisher::send_poses(bool quiet) {
 void FramePublisher::write_poses() {
   snapshot_.session = session_;
   snapshot_.publish_time_ns = now_utc_ns();
-  poses_topic_.write(snapshot_);
+  write(poses_topic_, snapshot_);
+}
+
+template <class Message>
+void FramePublisher::write(Publisher<Message>& topic, const Message& message) {
+  if (topic.write(message)) return;
+  if (const auto held_back = failures_.admit(RepeatLimiter::Time::clock::now()))
+    logger_->error("write_failed topic={} more={}", kTopicName<Message>, *held_back);
 }
 
 Elapsed FramePublisher::elapsed() const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "poinsot/base/stopwatch.h"
+#include "poinsot/program/log.h"
 #include "poinsot/protocol/body_info.h"
 #include "poinsot/service/outbox.h"
 #include "poinsot/wire/publisher.h"
@@ -23,7 +24,7 @@ class FramePublisher {
  public:
   // Starts the thread. Throws Error if the topics cannot be made. `session` is stamped on all.
   FramePublisher(Participant& participant, const std::string& world, Outbox& outbox,
-                 std::vector<BodyInfo> scene, std::uint64_t session);
+                 std::vector<BodyInfo> scene, std::uint64_t session, Logger logger);
   ~FramePublisher() { stop(); }
 
   // Sends what is left in the outbox and ends the thread.
@@ -36,6 +37,8 @@ class FramePublisher {
   void send(bool quiet);
   void send_poses(bool quiet);
   void write_poses();
+  template <class Message>
+  void write(Publisher<Message>& topic, const Message& message);
 
   Outbox& outbox_;
   std::uint64_t session_;
@@ -50,6 +53,9 @@ class FramePublisher {
   RunReport report_;
   int readers_ = 0;      // of poses, at the last look
   bool joined_ = false;  // since the newest snapshot was written
+
+  Logger logger_;
+  RepeatLimiter failures_;
 
   mutable std::mutex mutex_;
   Elapsed elapsed_;  // under the mutex

@@ -14,9 +14,8 @@ namespace poinsot {
 
 class ReplyCache {
  public:
-  // At 60 Hz with a full inbox in every frame this is four frames; with one push per second, an
-  // hour. A client that resends does so within a second.
-  static constexpr std::size_t kCapacity = 4096;
+  // A client resends within a second: that is 60 frames with a full inbox each.
+  static constexpr std::size_t kCapacity = 65536;
 
   // The reply to (client, seq); nothing if it is not known (any more).
   const Reply* find(std::uint64_t client, std::uint64_t seq) const {

@@ -21,7 +21,7 @@ void run_daemon(Scene scene, const DaemonOptions& options, bool json, StopSignal
                 const Logger& logger, std::ostream& out);
 
 // The commands to type in another terminal: to watch, and to push a body of this scene upwards with
-// one and a half times its weight. Empty without a body that moves.
+// one and a half times its weight. Only the first without a body that moves.
 std::string invitation(const Scene& scene, const DaemonOptions& options);
 
 // frame, simulated time, real-time factor, bodies, contacts, energy error; and trouble, if any.

@@ -11,8 +11,8 @@
 namespace poinsot {
 
 struct HeldWrench {
-  Wrench in_W;               // sum constant in W: all forces in W, and couples in W, about c
-  Wrench in_B;               // sum constant in B, about c
+  Wrench in_W;                 // sum constant in W: all forces in W, and couples in W, about c
+  Wrench in_B;                 // sum constant in B, about c
   Mat3 moment = Mat3::Zero();  // [N·m] Σ p_B F_Wᵀ of the forces in W that act off c
 
   // A force F_W [N], constant in W, at the body-fixed point p_B [m] from the centre of mass.

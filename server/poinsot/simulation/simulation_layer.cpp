@@ -9,10 +9,9 @@ namespace {
 // A coordinate beyond this is no physics any more; its square is still finite.
 constexpr double kLargest = 1e100;
 
-// False for NaN as well.
-template <class Numbers>
-bool is_sound(const Numbers& numbers) {
-  return (numbers.array().abs() < kLargest).all();
+// False for NaN as well, and for a quaternion that overflowed while it was made unit.
+bool is_sound(const StateArray& y, Eigen::Index i) {
+  return (y.col(i).array().abs() < kLargest).all() && orientation(y, i).squaredNorm() > 0.5;
 }
 
 }  // namespace
@@ -31,7 +30,7 @@ void SimulationLayer::advance_to(double t_end) {
   const Dynamics dynamics{world_, contact_wrenches_};
   work_.start_step(dynamics);
   integrate(integrator_, dynamics, world_.y, duration, longest_step_);
-  if (!is_sound(world_.y)) freeze_unsound();
+  freeze_unsound();
   work_.end_step(dynamics, duration);
   std::fill(contact_wrenches_.begin(), contact_wrenches_.end(), Wrench{});
   last_good_ = world_.y;
@@ -40,7 +39,7 @@ void SimulationLayer::advance_to(double t_end) {
 
 void SimulationLayer::freeze_unsound() {
   for (Eigen::Index i = 0; i < world_.size(); ++i) {
-    if (is_sound(world_.y.col(i))) continue;
+    if (is_sound(world_.y, i)) continue;
     world_.y.col(i) = last_good_.col(i);
     world_.freeze(i);
     contact_wrenches_[static_cast<std::size_t>(i)] = Wrench{};

@@ -23,6 +23,11 @@ class SimulationLayer {
   // and frozen there.
   void advance_to(double t_end);
 
+  // Puts bodies whose state is not finite, or absurd, back to where the last advance left them, and
+  // freezes them there. advance_to ends with it; callers that changed the state call it before they
+  // ask anything about it.
+  void freeze_unsound();
+
   World& world() { return world_; }
   const World& world() const { return world_; }
 
@@ -33,8 +38,6 @@ class SimulationLayer {
   const WorkMeter& work() const { return work_; }
 
  private:
-  void freeze_unsound();
-
   World world_;
   Integrator integrator_;
   double longest_step_;  // [s]

@@ -15,8 +15,12 @@ namespace poinsot {
 
 using StateArray = Eigen::Matrix<double, 13, Eigen::Dynamic>;  // 13×n
 
-inline auto position(StateArray& y, Eigen::Index i) { return y.block<3, 1>(0, i); }
-inline auto position(const StateArray& y, Eigen::Index i) { return y.block<3, 1>(0, i); }
+inline auto position(StateArray& y, Eigen::Index i) {
+  return y.block<3, 1>(0, i);
+}
+inline auto position(const StateArray& y, Eigen::Index i) {
+  return y.block<3, 1>(0, i);
+}
 
 inline Eigen::Map<Quat> orientation(StateArray& y, Eigen::Index i) {
   return Eigen::Map<Quat>(y.col(i).data() + 3);
@@ -25,10 +29,18 @@ inline Eigen::Map<const Quat> orientation(const StateArray& y, Eigen::Index i) {
   return Eigen::Map<const Quat>(y.col(i).data() + 3);
 }
 
-inline auto momentum(StateArray& y, Eigen::Index i) { return y.block<3, 1>(7, i); }
-inline auto momentum(const StateArray& y, Eigen::Index i) { return y.block<3, 1>(7, i); }
+inline auto momentum(StateArray& y, Eigen::Index i) {
+  return y.block<3, 1>(7, i);
+}
+inline auto momentum(const StateArray& y, Eigen::Index i) {
+  return y.block<3, 1>(7, i);
+}
 
-inline auto angular_momentum(StateArray& y, Eigen::Index i) { return y.block<3, 1>(10, i); }
-inline auto angular_momentum(const StateArray& y, Eigen::Index i) { return y.block<3, 1>(10, i); }
+inline auto angular_momentum(StateArray& y, Eigen::Index i) {
+  return y.block<3, 1>(10, i);
+}
+inline auto angular_momentum(const StateArray& y, Eigen::Index i) {
+  return y.block<3, 1>(10, i);
+}
 
 }  // namespace poinsot

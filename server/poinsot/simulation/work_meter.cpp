@@ -25,6 +25,7 @@ void WorkMeter::end_step(const Dynamics& dynamics, double h) {
     return 0.5 * h * (a.value + b.value) + h * h / 12 * (a.rate - b.rate);
   };
   for (const Open& start : open_) {
+    if (!dynamics.world.moves(start.i)) continue;  // frozen in this step
     const auto k = static_cast<std::size_t>(start.i);
     const HeldWrench& held = dynamics.world.held[k];
     const Open end = measure(dynamics, start.i);

@@ -3,7 +3,7 @@
 // What is a difference of positions is taken as such and is exact: F·Δc for a force constant in W
 // at the centre of mass, F·Δ(c + R p) at a body-fixed point. Couples and forces constant in B are
 // integrated over their power by the trapezoidal rule with end corrections (Euler and Maclaurin,
-// error O(h⁵) per step). Bodies without a wrench cost one comparison.
+// error O(h⁵) per step). Bodies without a wrench are passed over.
 
 #pragma once
 

@@ -28,7 +28,9 @@ struct World {
   explicit World(const Scene& scene);
 
   Eigen::Index size() const { return y.cols(); }
-  bool moves(Eigen::Index i) const { return motion[static_cast<std::size_t>(i)] == Motion::dynamic; }
+  bool moves(Eigen::Index i) const {
+    return motion[static_cast<std::size_t>(i)] == Motion::dynamic;
+  }
 
   // Column of a body; nothing if there is no such body.
   std::optional<Eigen::Index> find(BodyId id) const;
@@ -41,7 +43,7 @@ struct World {
   Vec3 gravity;     // [m/s²] in W
   StateArray y;     // 13×n
 
-  // Constant.
+  // Constant, unless a body is frozen.
   std::vector<BodyId> ids;
   std::vector<std::string> names;
   std::vector<Motion> motion;

@@ -32,7 +32,7 @@ TEST(RunOffline, EndsAfterTheFramesWithTheHashOfAnyOtherRun) {
 TEST(RunOffline, WithoutAFrameCountItRunsUntilStopped) {
   std::stop_source stop;
   std::jthread stopper([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
     stop.request_stop();
   });
   const RunSummary summary = run_offline(one_box(), {}, stop.get_token());

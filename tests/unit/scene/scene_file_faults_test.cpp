@@ -89,9 +89,9 @@ const std::vector<Malformed> kMalformed = {
      "s.yaml:2:29: unknown contact_solver 'sequential_impulse', did you mean "
      "'sequential_impulses'?"},
     {"FrameRate", "bodies: []\npresentation: {frame_rate: 0}",
-     "s.yaml:2:28: frame_rate must be > 0 Hz and at most 1000000 Hz, is 0"},
+     "s.yaml:2:28: frame_rate must be 0.001 to 1000000 Hz, is 0"},
     {"ContactStep", "bodies: []\ncollision: {contact_step: -0.1}",
-     "s.yaml:2:27: contact_step must be > 0 s and at most 1 s, is -0.1"},
+     "s.yaml:2:27: contact_step must be 1e-09 to 1 s, is -0.1"},
     {"Iterations", "bodies: []\ncollision: {iterations: 2.5}",
      "s.yaml:2:25: iterations must be a whole number, is '2.5'"},
     {"HexNumber", "bodies: []\nsimulation: {step: 0x10}",

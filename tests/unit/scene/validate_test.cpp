@@ -47,25 +47,24 @@ TEST(Validate, AcceptsAGoodScene) {
 }
 
 TEST(Validate, ChecksTheTables) {
-  EXPECT_EQ(
-      faults_after([](Scene& s) {
-        s.world = "a/b";
-        s.presentation.frame_rate = 0;
-        s.collision.contact_step = -1;
-        s.collision.iterations = 0;
-        s.collision.contact_margin = kNaN;
-        s.collision.push_out_speed = -1;
-        s.simulation.step = 2;
-        s.simulation.gravity.y() = kNaN;
-      }),
-      (Faults{"world: world must be 1 to 128 letters, digits, '_' or '-', is 'a/b'",
-              "presentation.frame_rate: frame_rate must be > 0 Hz and at most 1000000 Hz, is 0",
-              "collision.contact_step: contact_step must be > 0 s and at most 1 s, is -1",
-              "collision.iterations: iterations must be 1 to 1000000, is 0",
-              "collision.contact_margin: contact_margin must be 0 to 1, is nan",
-              "collision.push_out_speed: push_out_speed must be >= 0 m/s and finite, is -1",
-              "simulation.step: step must be 0 (one per contact step) or at most 1 s, is 2",
-              "simulation.gravity: gravity must be finite and at most 1e+12 m/s²"}));
+  EXPECT_EQ(faults_after([](Scene& s) {
+              s.world = "a/b";
+              s.presentation.frame_rate = 0;
+              s.collision.contact_step = -1;
+              s.collision.iterations = 0;
+              s.collision.contact_margin = kNaN;
+              s.collision.push_out_speed = -1;
+              s.simulation.step = 2;
+              s.simulation.gravity.y() = kNaN;
+            }),
+            (Faults{"world: world must be 1 to 128 letters, digits, '_' or '-', is 'a/b'",
+                    "presentation.frame_rate: frame_rate must be 0.001 to 1000000 Hz, is 0",
+                    "collision.contact_step: contact_step must be 1e-09 to 1 s, is -1",
+                    "collision.iterations: iterations must be 1 to 1000000, is 0",
+                    "collision.contact_margin: contact_margin must be 0 to 1, is nan",
+                    "collision.push_out_speed: push_out_speed must be >= 0 m/s and finite, is -1",
+                    "simulation.step: step must be 0 (one per contact step) or 1e-09 to 1 s, is 2",
+                    "simulation.gravity: gravity must be finite and at most 1e+12 m/s²"}));
 }
 
 TEST(Validate, ChecksMassAndInertia) {
@@ -125,7 +124,7 @@ TEST(Validate, ChecksNames) {
   EXPECT_EQ(named("ground"),
             Faults{"bodies[1].name: duplicate body name 'ground', first at bodies[0]"});
   EXPECT_EQ(named(std::string(129, 'a')),
-            Faults{"bodies[0].name: a body's name must have at most 128 bytes, has 129"});
+            Faults{"bodies[0].name: a body's name must have at most 127 bytes, has 129"});
   // Control characters; a lone continuation; cut short; overlong '/'; a surrogate; beyond Unicode.
   for (const char* bad : {"a\nb", "\x7f", "\xc2\x85", "\x80", "\xc3", "\xe2\x82", "\xc0\xaf",
                           "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff"})

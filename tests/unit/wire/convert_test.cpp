@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "poinsot/protocol/limits.h"
+#include "poinsot/base/limits.h"
 #include "support/protocol_equality.h"
 #include "support/protocol_samples.h"
 
