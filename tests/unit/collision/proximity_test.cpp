@@ -61,7 +61,7 @@ Placed placed(int kind_a, int kind_b, double gap, Random& random) {
 TEST_P(EachPair, LeastGapIsTheSignedDistance) {
   const auto [kind_a, kind_b] = GetParam();
   Random random(100 + static_cast<std::uint64_t>(10 * kind_a + kind_b));
-  for (int i = 0; i < 120; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const Placed p = placed(kind_a, kind_b, random.uniform(-0.05, 0.05), random);
     const double size = std::min(p.a.size, p.b.size), margin = 0.2;
     Manifold m;
