@@ -64,7 +64,7 @@ const std::vector<Malformed> kMalformed = {
     {"KeyIsAList", "bodies: []\n? [a]\n: 1", "s.yaml:2:3: a key must be a word, is a list of 1"},
     {"MergeKey", "bodies: []\n<<: {}", "s.yaml:2:1: unknown key '<<'" + kKnown},
     {"WorldName", "world: a b\nbodies: []",
-     "s.yaml:1:8: world must be 1 to 128 letters, digits, '_' or '-', is 'a b'"},
+     "s.yaml:1:8: world must be 1 to 127 letters, digits, '_' or '-', is 'a b'"},
     {"OverlapWord", "allow_overlap: yes\nbodies: []",
      "s.yaml:1:16: allow_overlap must be true or false, is 'yes'"},
 

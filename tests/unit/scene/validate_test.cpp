@@ -57,7 +57,7 @@ TEST(Validate, ChecksTheTables) {
               s.simulation.step = 2;
               s.simulation.gravity.y() = kNaN;
             }),
-            (Faults{"world: world must be 1 to 128 letters, digits, '_' or '-', is 'a/b'",
+            (Faults{"world: world must be 1 to 127 letters, digits, '_' or '-', is 'a/b'",
                     "presentation.frame_rate: frame_rate must be 0.001 to 1000000 Hz, is 0",
                     "collision.contact_step: contact_step must be 1e-09 to 1 s, is -1",
                     "collision.iterations: iterations must be 1 to 1000000, is 0",
