@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "poinsot/base/error.h"
+#include "support/temp_path.h"
 
 namespace poinsot {
 namespace {
@@ -35,7 +36,7 @@ class LoadSceneTest : public testing::Test {
     return "";
   }
 
-  const fs::path directory_ = fs::path(testing::TempDir()) / "load_scene_test";
+  const fs::path directory_ = test::temp_path("load_scene");
   const std::vector<fs::path> directories_ = {"/nonexistent", directory_};
 };
 

@@ -8,6 +8,7 @@
 
 #include "poinsot/base/error.h"
 #include "support/scene_builder.h"
+#include "support/temp_path.h"
 
 namespace poinsot {
 namespace {
@@ -40,7 +41,7 @@ TEST(RunOffline, WithoutAFrameCountItRunsUntilStopped) {
 }
 
 TEST(RunOffline, WritesTheTrajectoryFromFrameZero) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "offline.csv";
+  const auto file = test::temp_path("offline.csv");
   run_offline(one_box(), {.frames = 3, .trajectory = file}, {});
   std::ifstream in(file);
   int lines = 0;

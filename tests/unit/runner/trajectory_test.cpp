@@ -8,12 +8,13 @@
 
 #include "poinsot/base/error.h"
 #include "support/scene_builder.h"
+#include "support/temp_path.h"
 
 namespace poinsot {
 namespace {
 
 std::filesystem::path temporary_file(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / name;
+  return test::temp_path(name);
 }
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
