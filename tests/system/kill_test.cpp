@@ -17,8 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // A new daemon is there "at once": far below the 5 s after which a dead participant is forgotten.
-// Beside a client that watches, a restart now and then waits for Fast DDS's health check of the dead
-// daemon's queue, some two seconds.
+// Beside a client that watches, a restart now and then waits for Fast DDS's health check of the
+// dead daemon's queue, some two seconds.
 constexpr std::chrono::seconds kAtOnce{5};
 
 constexpr const char* kScene = R"(world: free
