@@ -50,8 +50,9 @@ TEST(CommandInbox, RefusesAndCountsWhenFull) {
 
 TEST(CommandInbox, AFloodOfPushesLeavesRoomForAPause) {
   CommandInbox inbox;
-  while (inbox.push(wrench(1, 1))) {
-  }
+  std::uint64_t seq = 1;
+  while (inbox.push(wrench(1, seq))) ++seq;  // each a new one: the same would be taken again
+  EXPECT_EQ(seq, CommandInbox::kCapacity + 1);
   EXPECT_TRUE(inbox.push(RunControl{}));
 }
 
