@@ -2,10 +2,13 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/protocol/run_control.h"
+#include "poinsot/scene/strategies.h"
 
 namespace poinsot {
 
@@ -15,6 +18,7 @@ enum class FrameFlag : std::uint32_t {
   body_quarantined = 1,  // a body's state became non-finite; it is frozen at its last good pose
   inbox_full = 2,        // a command was refused since the last report
   overrun = 4,           // a deadline was missed since the last report
+  stiff = 8,             // springs were too stiff for the integrator: rosenbrock took over
 };
 
 constexpr FrameFlag operator|(FrameFlag a, FrameFlag b) {
@@ -35,6 +39,12 @@ struct FrameReport {
   double energy_error = 0;  // [-] (ΔE − work + contact loss) / energy scale, since the epoch began
   double push_out_energy = 0;  // [J] added by the removal of penetration
   double max_penetration = 0;  // [m]
+  // Local error of this frame, the largest of all bodies: a bound for flights, an estimate else.
+  double position_error = 0;     // [m]
+  double orientation_error = 0;  // [rad]
+  // Sum over the frames of the epoch of the largest |ΔL − ∫τ| of a body, over the largest |L| seen.
+  double momentum_error = 0;                                    // [-]
+  std::array<std::uint32_t, kMethodNames.size()> methods = {};  // bodies moved by each Method
   FrameFlag flags = FrameFlag::none;
 };
 
@@ -53,8 +63,9 @@ struct RunReport {
   std::uint32_t epoch = 0;
   RunState state = RunState::stopped;
   FrameReport frame;
-  double frame_rate = 60;       // [Hz]
-  double real_time_factor = 0;  // simulated / wall time over 150 ms or more; 0 while paused
+  double frame_rate = 60;            // [Hz]
+  double real_time_factor = 0;       // simulated / wall time over 150 ms or more; 0 while paused
+  std::vector<Method> body_methods;  // per dynamic body, in the order of the scene
   std::uint64_t state_hash = 0;
   std::uint64_t overruns = 0;  // frames that missed their deadline
   std::uint64_t commands_accepted = 0;

@@ -16,13 +16,9 @@
 #include "poinsot/base/body_id.h"
 #include "poinsot/math/types.h"
 #include "poinsot/protocol/result.h"
+#include "poinsot/scene/scene.h"
 
 namespace poinsot {
-
-enum class Axes : std::uint8_t { world = 0, body = 1 };
-
-// Where a force acts: at the centre of mass, or at a point given in W or in B (from B's origin).
-enum class PointFrame : std::uint8_t { center_of_mass = 0, world = 1, body = 2 };
 
 enum class Hold : std::uint8_t {
   frame = 0,          // one frame

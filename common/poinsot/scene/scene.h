@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,14 @@ namespace poinsot {
 struct Material {
   double friction = 0.5;     // [-] Coulomb coefficient
   double restitution = 0.0;  // [-] Newton coefficient, 0 … 1
+};
+
+// Resistance of a medium at rest in W: F = −(linear + quadratic |v|) v at the centre of mass,
+// τ = −angular ω.
+struct DragDef {
+  double linear = 0;     // [N·s/m]
+  double quadratic = 0;  // [N·s²/m²]
+  double angular = 0;    // [N·m·s/rad]
 };
 
 struct ShapeDef {
@@ -32,12 +42,47 @@ struct BodyDef {
   Vec3 linear_velocity = Vec3::Zero();   // [m/s] of the centre of mass, in W
   Vec3 angular_velocity = Vec3::Zero();  // [rad/s] in W
   Material material;
+  DragDef drag;
   std::string where;  // "file:line:col" of its definition, for messages; empty if built in code
 };
 
+// A spring and damper in parallel between a point of body `a` and a point of body `b`, or of W:
+//   F = (stiffness (d − rest_length) + damping d′) along the line from one point to the other.
+struct SpringDef {
+  std::string a;                      // body
+  std::string b;                      // body; empty: the world
+  Vec3 point_a = Vec3::Zero();        // [m] in B of a, from its origin
+  Vec3 point_b = Vec3::Zero();        // [m] in B of b, from its origin; in W if b is empty
+  double stiffness = 0;               // [N/m]
+  double damping = 0;                 // [N·s/m]
+  std::optional<double> rest_length;  // [m]; without it the distance at time 0
+  std::string where;                  // as BodyDef::where
+};
+
+enum class Axes : std::uint8_t { world = 0, body = 1 };
+
+// Where a force acts: at the centre of mass, or at a point given in W or in B (from B's origin).
+enum class PointFrame : std::uint8_t { center_of_mass = 0, world = 1, body = 2 };
+
+// A force and a torque on one body from `start` on, for `duration`: what a client could also send.
+// Times are rounded to frames.
+struct WrenchDef {
+  std::string body;
+  Vec3 force = Vec3::Zero();   // [N]
+  Vec3 torque = Vec3::Zero();  // [N·m] a free couple
+  Axes axes = Axes::world;     // of force and torque
+  Vec3 point = Vec3::Zero();   // [m] in the frame of point_frame; fixed to the body at `start`
+  PointFrame point_frame = PointFrame::center_of_mass;
+  double start = 0;                // [s]
+  std::optional<double> duration;  // [s]; without it for ever
+  std::string where;               // as BodyDef::where
+};
+
 struct SimulationDef {
-  IntegratorKind integrator = IntegratorKind::rk4;
+  IntegratorKind integrator = IntegratorKind::exact;
   double step = 0;                   // [s] of the fixed methods; 0: one step per contact step
+  double tolerance = 0;              // [-] local error of the adaptive ones, relative to each
+                                     // quantity's scale; 0: 1e-8, and rounding for taylor
   Vec3 gravity = Vec3(0, 0, -9.81);  // [m/s²] in W
 };
 
@@ -69,6 +114,8 @@ struct Scene {
   SimulationDef simulation;
   bool allow_overlap = false;  // bodies may overlap at time 0; they are pushed out at bounded speed
   std::vector<BodyDef> bodies;
+  std::vector<SpringDef> springs;
+  std::vector<WrenchDef> wrenches;
 };
 
 // One fault of a scene. `where` may be empty when the scene was built in code.

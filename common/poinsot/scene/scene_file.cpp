@@ -98,9 +98,8 @@ class SceneReader {
     if (!fields) return;
     SimulationDef& def = scene_.simulation;
     if (const YamlNode* item = fields->find("integrator"))
-      def.integrator =
-          reader_.named<IntegratorKind>(*item, "integrator", kIntegratorNames, kIntegratorsLater)
-              .value_or(def.integrator);
+      def.integrator = reader_.named<IntegratorKind>(*item, "integrator", kIntegratorNames, {})
+                           .value_or(def.integrator);
     read_number(*fields, "simulation", "step", def.step);
     if (const YamlNode* item = fields->find("gravity")) {
       faults_.place("simulation.gravity", *item);

@@ -72,8 +72,6 @@ inline constexpr std::array<const KeyTable*, 8> kPlaces = {
     &kBodyTable,  &kMaterialTable,     &kShapeTable,     &kInertiaTable};
 
 // Strategies of the plan that strategies.h does not have yet.
-inline constexpr std::string_view kIntegratorsLater[] = {"exact", "taylor", "dop853", "dopri5",
-                                                         "explicit_euler"};
 inline constexpr std::string_view kImpactSearchesLater[] = {"conservative", "backtracking",
                                                             "continuous"};
 inline constexpr std::string_view kContactSolversLater[] = {"auto", "pairwise", "soft_step",
