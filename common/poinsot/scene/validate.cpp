@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,31 +9,23 @@
 #include "poinsot/base/limits.h"
 #include "poinsot/base/utf8.h"
 #include "poinsot/math/inertia.h"
+#include "poinsot/scene/fault_text.h"
 #include "poinsot/scene/scene.h"
+#include "poinsot/scene/validate_forces.h"
 
 namespace poinsot {
 namespace {
 
 constexpr double kUnitSlack = 1e-9;  // [-] how far from 1 the norm of a unit quantity may be
-constexpr double kMagnitude = 1e12;  // SI; lengths and speeds beyond it are slips of the pen
 constexpr double kMinFrameRate = 1e-3, kMaxFrameRate = 1e6;  // [Hz]
 constexpr double kMinStep = 1e-9, kMaxStep = 1;              // [s]
+constexpr double kMinTolerance = 1e-15, kMaxTolerance = 1e-1;
 constexpr double kMaxStepsPerFrame = 1e6;
 constexpr double kLeastMass = 1e-30, kMostMass = 1e30;  // [kg] squares and inverses stay finite
 constexpr int kMaxIterations = 1'000'000;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
-
-std::string quoted(std::string_view text) {
-  return std::string("'").append(text).append("'");
-}
-
 bool sane(const Vec3& v) {
-  return v.allFinite() && v.cwiseAbs().maxCoeff() <= kMagnitude;
+  return is_within(v, kMagnitude);
 }
 
 bool is_unit(double norm) {
@@ -135,6 +126,7 @@ class Validation {
     check_tables(scene);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       check_body(scene.bodies[i], "bodies[" + std::to_string(i) + "]");
+    for (SceneFault& fault : validate_forces(scene)) faults_.push_back(std::move(fault));
     return std::move(faults_);
   }
 
@@ -171,6 +163,11 @@ class Validation {
             "step must be 0 (one per contact step) or " + number(kMinStep) + " to " +
                 number(kMaxStep) + " s",
             s.step);
+    require(s.tolerance == 0 || (s.tolerance >= kMinTolerance && s.tolerance <= kMaxTolerance),
+            "simulation.tolerance",
+            "tolerance must be 0 (the integrator's own) or " + number(kMinTolerance) + " to " +
+                number(kMaxTolerance),
+            s.tolerance);
     if (!sane(s.gravity))
       add("", "simulation.gravity",
           "gravity must be finite and at most " + number(kMagnitude) + " m/s²");
@@ -187,6 +184,7 @@ class Validation {
     check_vector(body, path + ".angular_velocity", body.angular_velocity, "rad/s");
     check_quaternion(body, path + ".orientation", body.pose.q);
     check_material(body, path + ".material");
+    check_drag(body, path + ".drag");
     for (std::size_t k = 0; k < body.shapes.size(); ++k)
       check_shape(body, body.shapes[k], path + ".shapes[" + std::to_string(k) + "]");
     if (body.shapes.size() > kMaxShapes)
@@ -246,6 +244,16 @@ class Validation {
     if (!(m.restitution >= 0 && m.restitution <= 1))
       add(body.where, path + ".restitution",
           "restitution must be 0 to 1, is " + number(m.restitution));
+  }
+
+  void check_drag(const BodyDef& body, const std::string& path) {
+    const DragDef& d = body.drag;
+    add(body.where, path + ".linear", coefficient_fault("linear drag", d.linear, "N·s/m"));
+    add(body.where, path + ".quadratic",
+        coefficient_fault("quadratic drag", d.quadratic, "N·s²/m²"));
+    add(body.where, path + ".angular", coefficient_fault("angular drag", d.angular, "N·m·s/rad"));
+    if (body.is_static && (d.linear > 0 || d.quadratic > 0 || d.angular > 0))
+      add(body.where, path, "a static body has no drag");
   }
 
   std::vector<SceneFault> faults_;
