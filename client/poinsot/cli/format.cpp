@@ -121,7 +121,8 @@ std::string status_text(const std::string& world, const RunReport& r) {
                       f.energy_error, f.push_out_energy);
   text += fmt::format("local error  {:.3g} m, {:.3g} rad\n", f.position_error, f.orientation_error);
   text += fmt::format("momentum     error {:.3g}\n", f.momentum_error);
-  text += fmt::format("methods      {}\n", methods_text(f));
+  const std::string methods = methods_text(f);
+  text += fmt::format("methods      {}\n", methods.empty() ? "none yet" : methods);
   text += fmt::format("commands     {} accepted, {} refused\n", r.commands_accepted,
                       r.commands_refused);
   text += fmt::format("snapshots    {} dropped\n", r.snapshots_dropped);

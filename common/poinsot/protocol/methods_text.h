@@ -8,7 +8,7 @@
 
 namespace poinsot {
 
-// Those that moved a body, in the order of kMethodNames; "-" if there are none.
+// Those that moved a body, in the order of kMethodNames; empty if there are none.
 inline std::string methods_text(const FrameReport& report) {
   std::string text;
   for (const Named<Method>& row : kMethodNames) {
@@ -19,7 +19,7 @@ inline std::string methods_text(const FrameReport& report) {
         .append(" ")
         .append(std::to_string(bodies));
   }
-  return text.empty() ? "-" : text;
+  return text;
 }
 
 }  // namespace poinsot

@@ -49,15 +49,15 @@ std::string world_fault(std::string_view world) {
       });
   return good ? std::string()
               : "world must be 1 to " + std::to_string(kMaxNameLength) +
-                    " letters, digits, '_' or '-', is " + quoted(world);
+                    " letters, digits, '_' or '-', is " + in_quotes(world);
 }
 
 // Sizes ------------------------------------------------------------------------------------------
 
 std::string size_fault(std::string_view what, double value) {
   if (value > 0 && value <= kMagnitude) return {};
-  return std::string(what) + " must be > 0 m and at most " + number(kMagnitude) + " m, is " +
-         number(value);
+  return std::string(what) + " must be > 0 m and at most " + digits(kMagnitude) + " m, is " +
+         digits(value);
 }
 
 std::string sizes_fault(std::string_view what, const Vec3& sizes) {
@@ -88,7 +88,7 @@ struct ShapeFault {
       return "convex must be made by convex_hull(): it has " + std::to_string(s.vertices.size()) +
              " vertices and " + std::to_string(s.faces.size()) + " faces";
     if (!std::ranges::all_of(s.vertices, sane))
-      return "convex points must be finite and at most " + number(kMagnitude) + " m from 0";
+      return "convex points must be finite and at most " + digits(kMagnitude) + " m from 0";
     const int count = static_cast<int>(s.vertices.size());
     for (const Convex::Face& face : s.faces)
       for (int i : face.loop)
@@ -99,8 +99,8 @@ struct ShapeFault {
     if (!s.normal.allFinite() || !is_unit(s.normal.norm()))
       return "half_space normal must have length 1";
     if (!(std::abs(s.offset) <= kMagnitude))
-      return "half_space offset must be finite and at most " + number(kMagnitude) + " m, is " +
-             number(s.offset);
+      return "half_space offset must be finite and at most " + digits(kMagnitude) + " m, is " +
+             digits(s.offset);
     return {};
   }
 };
@@ -112,8 +112,8 @@ std::string inertia_fault(const Mat3& J) {
   if (is_physical_inertia(J)) return {};
   if (!J.isApprox(J.transpose(), kUnitSlack)) return "inertia must be symmetric";
   const Vec3 p = principal_moments(J);
-  return "no solid has this inertia: its principal moments are " + number(p[0]) + ", " +
-         number(p[1]) + " and " + number(p[2]) + " kg·m²; " +
+  return "no solid has this inertia: its principal moments are " + digits(p[0]) + ", " +
+         digits(p[1]) + " and " + digits(p[2]) + " kg·m²; " +
          (p[0] > 0 ? "the greatest must not exceed the sum of the other two" : "all must be > 0");
 }
 
@@ -135,23 +135,23 @@ class Validation {
     if (!what.empty()) faults_.push_back({where, std::move(what), path});
   }
   void require(bool good, const std::string& path, const std::string& what, double value) {
-    if (!good) add("", path, what + ", is " + number(value));
+    if (!good) add("", path, what + ", is " + digits(value));
   }
 
   void check_tables(const Scene& scene) {
     const double rate = scene.presentation.frame_rate;
     require(rate >= kMinFrameRate && rate <= kMaxFrameRate, "presentation.frame_rate",
-            "frame_rate must be " + number(kMinFrameRate) + " to " + number(kMaxFrameRate) + " Hz",
+            "frame_rate must be " + digits(kMinFrameRate) + " to " + digits(kMaxFrameRate) + " Hz",
             rate);
     const CollisionDef& c = scene.collision;
     require(c.contact_step >= kMinStep && c.contact_step <= kMaxStep, "collision.contact_step",
-            "contact_step must be " + number(kMinStep) + " to " + number(kMaxStep) + " s",
+            "contact_step must be " + digits(kMinStep) + " to " + digits(kMaxStep) + " s",
             c.contact_step);
     for (const double step : {c.contact_step, scene.simulation.step})
       if (step > 0 && rate > 0 && 1 / (rate * step) > kMaxStepsPerFrame)
         add("", "collision.contact_step",
-            "a frame would take more than " + number(kMaxStepsPerFrame) + " steps of " +
-                number(step) + " s");
+            "a frame would take more than " + digits(kMaxStepsPerFrame) + " steps of " +
+                digits(step) + " s");
     require(c.iterations >= 1 && c.iterations <= kMaxIterations, "collision.iterations",
             "iterations must be 1 to " + std::to_string(kMaxIterations), c.iterations);
     require(c.contact_margin >= 0 && c.contact_margin <= 1, "collision.contact_margin",
@@ -160,17 +160,17 @@ class Validation {
             "push_out_speed must be >= 0 m/s and finite", c.push_out_speed);
     const SimulationDef& s = scene.simulation;
     require(s.step == 0 || (s.step >= kMinStep && s.step <= kMaxStep), "simulation.step",
-            "step must be 0 (one per contact step) or " + number(kMinStep) + " to " +
-                number(kMaxStep) + " s",
+            "step must be 0 (one per contact step) or " + digits(kMinStep) + " to " +
+                digits(kMaxStep) + " s",
             s.step);
     require(s.tolerance == 0 || (s.tolerance >= kMinTolerance && s.tolerance <= kMaxTolerance),
             "simulation.tolerance",
-            "tolerance must be 0 (the integrator's own) or " + number(kMinTolerance) + " to " +
-                number(kMaxTolerance),
+            "tolerance must be 0 (the integrator's own) or " + digits(kMinTolerance) + " to " +
+                digits(kMaxTolerance),
             s.tolerance);
     if (!sane(s.gravity))
       add("", "simulation.gravity",
-          "gravity must be finite and at most " + number(kMagnitude) + " m/s²");
+          "gravity must be finite and at most " + digits(kMagnitude) + " m/s²");
   }
 
   void check_body(const BodyDef& body, const std::string& path) {
@@ -178,7 +178,7 @@ class Validation {
     const auto [first, is_new] = names_.emplace(body.name, body.where.empty() ? path : body.where);
     if (!is_new)
       add(body.where, path + ".name",
-          "duplicate body name " + quoted(body.name) + ", first at " + first->second);
+          "duplicate body name " + in_quotes(body.name) + ", first at " + first->second);
     check_vector(body, path + ".position", body.pose.c, "m");
     check_vector(body, path + ".linear_velocity", body.linear_velocity, "m/s");
     check_vector(body, path + ".angular_velocity", body.angular_velocity, "rad/s");
@@ -197,11 +197,11 @@ class Validation {
   void check_masses(const BodyDef& body, const std::string& path) {
     const MassProperties& m = body.mass_properties;
     if (!(m.mass > 0) || !std::isfinite(m.mass))
-      add(body.where, path + ".mass", "mass must be > 0 kg and finite, is " + number(m.mass));
+      add(body.where, path + ".mass", "mass must be > 0 kg and finite, is " + digits(m.mass));
     else if (m.mass < kLeastMass || m.mass > kMostMass)
       add(body.where, path + ".mass",
-          "mass must be " + number(kLeastMass) + " to " + number(kMostMass) + " kg, is " +
-              number(m.mass));
+          "mass must be " + digits(kLeastMass) + " to " + digits(kMostMass) + " kg, is " +
+              digits(m.mass));
     check_vector(body, path + ".center_of_mass", m.center_of_mass, "m");
     if (m.mass > 0) add(body.where, path + ".inertia", inertia_fault(m.J));
   }
@@ -227,23 +227,23 @@ class Validation {
                     std::string_view unit) {
     if (sane(v)) return;
     add(body.where, path,
-        path.substr(path.rfind('.') + 1) + " must be finite and at most " + number(kMagnitude) +
+        path.substr(path.rfind('.') + 1) + " must be finite and at most " + digits(kMagnitude) +
             " " + std::string(unit));
   }
 
   void check_quaternion(const BodyDef& body, const std::string& path, const Quat& q) {
     if (!q.coeffs().allFinite() || !is_unit(q.norm()))
-      add(body.where, path, "orientation must be a unit quaternion, has norm " + number(q.norm()));
+      add(body.where, path, "orientation must be a unit quaternion, has norm " + digits(q.norm()));
   }
 
   void check_material(const BodyDef& body, const std::string& path) {
     const Material& m = body.material;
     if (!(m.friction >= 0 && m.friction <= kMagnitude))
       add(body.where, path + ".friction",
-          "friction must be >= 0 and finite, is " + number(m.friction));
+          "friction must be >= 0 and finite, is " + digits(m.friction));
     if (!(m.restitution >= 0 && m.restitution <= 1))
       add(body.where, path + ".restitution",
-          "restitution must be 0 to 1, is " + number(m.restitution));
+          "restitution must be 0 to 1, is " + digits(m.restitution));
   }
 
   void check_drag(const BodyDef& body, const std::string& path) {

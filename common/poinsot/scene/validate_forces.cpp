@@ -65,14 +65,14 @@ class ForceValidation {
 
   void check_vector(std::string_view key, const Vec3& v, double limit, std::string_view unit) {
     if (!is_within(v, limit))
-      add(key, std::string(key) + " must be finite and at most " + number(limit) + " " +
+      add(key, std::string(key) + " must be finite and at most " + digits(limit) + " " +
                    std::string(unit));
   }
 
   // The body of that name; a fault and nothing if there is none.
   const BodyDef* find(std::string_view key, const std::string& name) {
     if (const auto found = bodies_.find(name); found != bodies_.end()) return found->second;
-    std::string what = "no body " + quoted(name);
+    std::string what = "no body " + in_quotes(name);
     if (name.size() <= kLongestSuggestedName && suggestions_-- > 0) {
       std::vector<std::string_view> names;
       for (const BodyDef& body : scene_.bodies) names.push_back(body.name);
@@ -97,7 +97,7 @@ class ForceValidation {
       add("rest_length", coefficient_fault("rest_length", *spring.rest_length, "m"));
     if (!a || (!b && !spring.b.empty())) return;
     if (a == b)
-      add("b", "a spring must have its ends on two bodies, both are on " + quoted(spring.a));
+      add("b", "a spring must have its ends on two bodies, both are on " + in_quotes(spring.a));
     else if (a->is_static && (!b || b->is_static))
       add("", "a spring needs an end on a body that moves");
     else
@@ -123,7 +123,7 @@ class ForceValidation {
 
   void check(const WrenchDef& wrench) {
     if (const BodyDef* body = find("body", wrench.body); body && body->is_static)
-      add("body", "a wrench acts on a body that moves, " + quoted(wrench.body) + " is static");
+      add("body", "a wrench acts on a body that moves, " + in_quotes(wrench.body) + " is static");
     check_vector("force", wrench.force, kMaxWrench, "N");
     check_vector("torque", wrench.torque, kMaxWrench, "N·m");
     if (wrench.axes > Axes::body) add("frame", "frame must be world or body");
@@ -132,14 +132,14 @@ class ForceValidation {
     if (wrench.point_frame != PointFrame::center_of_mass)
       check_vector("point", wrench.point, kMaxPoint, "m");
     if (!(wrench.start >= 0 && wrench.start <= kMaxDuration))
-      add("start", "start must be 0 to " + number(kMaxDuration) + " s, is " + number(wrench.start));
+      add("start", "start must be 0 to " + digits(kMaxDuration) + " s, is " + digits(wrench.start));
     else if (wrench.start > 0 && wrench.point_frame == PointFrame::world)
       add("point_frame",
           "a point in the world becomes fixed to the body at time 0: with a start > 0 it must be "
           "given in the body");
     if (wrench.duration && !(*wrench.duration > 0 && *wrench.duration <= kMaxDuration))
-      add("duration", "duration must be > 0 s and at most " + number(kMaxDuration) + " s, is " +
-                          number(*wrench.duration));
+      add("duration", "duration must be > 0 s and at most " + digits(kMaxDuration) + " s, is " +
+                          digits(*wrench.duration));
   }
 
   inline static const std::string kNowhere;

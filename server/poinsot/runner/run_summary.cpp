@@ -41,7 +41,8 @@ std::string to_text(const RunSummary& s) {
                 t.presentation.cpu_s, t.collision.cpu_s, t.contact.cpu_s);
   text += print("              simulation %.4g s, publishing %.4g s\n", t.simulation.cpu_s,
                 t.publishing.cpu_s);
-  text += print("bodies        %u: ", s.last.bodies) + methods_text(s.last) + '\n';
+  const std::string methods = methods_text(s.last);
+  text += print("bodies        %u", s.last.bodies) + (methods.empty() ? "" : ": " + methods) + '\n';
   text += print("energy error  %.3g\n", s.last.energy_error);
   text += print("momentum      error %.3g\n", s.last.momentum_error);
   text += print("local error   %.3g m, %.3g rad (last frame)\n", s.last.position_error,

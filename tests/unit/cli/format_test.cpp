@@ -122,7 +122,7 @@ TEST(StatusText, ShowsTheErrorsAndTheMethodsThatMovedBodies) {
 }
 
 TEST(StatusText, ShowsNoMethodWhereNothingHasMoved) {
-  EXPECT_NE(status_text("push_me", {}).find("methods      -\n"), std::string::npos);
+  EXPECT_NE(status_text("push_me", {}).find("methods      none yet\n"), std::string::npos);
 }
 
 TEST(ListText, GivesNameMassAndShapeOfEachBody) {
