@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "poinsot/base/check.h"
+#include "poinsot/presentation/scene_wrenches.h"
 #include "poinsot/presentation/state_hash.h"
 
 namespace poinsot {
@@ -12,6 +14,8 @@ PresentationLayer::PresentationLayer(Scene scene)
   for (Eigen::Index i = 0; i < world().size(); ++i)
     if (world().moves(i)) columns_.push_back(i);
   snapshot_.bodies.resize(columns_.size());
+  body_methods_.resize(columns_.size(), Method::none);
+  hold_scene_wrenches();
   capture();
 }
 
@@ -35,7 +39,15 @@ void PresentationLayer::reset() {
   held_ = HeldWrenches(frame_rate());
   frame_ = 0;
   ++epoch_;
+  hold_scene_wrenches();
   capture();
+}
+
+void PresentationLayer::hold_scene_wrenches() {
+  if (scene_.wrenches.empty()) return;
+  std::vector<Reply> replies;
+  held_.accept(scene_wrenches(scene_, world()), world(), frame_ + 1, epoch_, replies);
+  for (const Reply& reply : replies) POINSOT_CHECK(reply.code == ResultCode::ok);  // validate()
 }
 
 void PresentationLayer::capture() {
