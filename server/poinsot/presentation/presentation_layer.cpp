@@ -64,7 +64,9 @@ void PresentationLayer::capture() {
   snapshot_.state_hash = state_hash(frame_, collision_, held_);
 
   const CollisionReport& collision = collision_.report();
-  const std::uint32_t quarantined = collision_.simulation().quarantined();
+  const SimulationLayer& simulation = collision_.simulation();
+  const std::uint32_t quarantined = simulation.quarantined();
+  const LocalError error = simulation.local_error();
   report_ = {.frame = frame_,
              .sim_time = time(),
              .bodies = static_cast<std::uint32_t>(columns_.size()),
@@ -74,7 +76,16 @@ void PresentationLayer::capture() {
              .energy_error = collision_.energy_error(),
              .push_out_energy = collision.push_out_energy,
              .max_penetration = collision.max_penetration,
-             .flags = quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none};
+             .position_error = error.position,
+             .orientation_error = error.orientation,
+             .momentum_error = simulation.momentum_error(),
+             .flags = (quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none) |
+                      (simulation.is_stiff() ? FrameFlag::stiff : FrameFlag::none)};
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const Method method = simulation.methods()[static_cast<std::size_t>(columns_[k])];
+    body_methods_[k] = method;
+    ++report_.methods[static_cast<std::size_t>(method)];
+  }
 }
 
 LayerTimes PresentationLayer::times() const {

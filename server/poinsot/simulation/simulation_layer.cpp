@@ -49,7 +49,7 @@ SimulationLayer::SimulationLayer(const Scene& scene)
     : world_(scene),
       kind_(scene.simulation.integrator),
       longest_step_(scene.simulation.step > 0 ? scene.simulation.step
-                                              : std::numeric_limits<double>::infinity()),
+                                              : scene.collision.contact_step),
       tolerance_(tolerance_of(scene.simulation)),
       contact_wrenches_(static_cast<std::size_t>(world_.size())),
       last_good_(world_.y),
