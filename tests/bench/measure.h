@@ -10,7 +10,6 @@
 
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +21,7 @@ class Simulation {
  public:
   virtual ~Simulation() = default;
   virtual void advance_to(double t) = 0;               // [s] the next output
-  virtual void read(std::span<Pose> poses) const = 0;  // of the bodies' centres of mass
+  virtual void read(std::vector<Pose>& poses) const = 0;  // of the bodies' centres of mass
 };
 
 // One way to run an engine. The name is the method, a space, and its step or tolerance.

@@ -50,7 +50,7 @@ class Layer final : public Simulation {
 
   void advance_to(double t) override { layer_.advance_to(t); }
 
-  void read(std::span<Pose> poses) const override {
+  void read(std::vector<Pose>& poses) const override {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       poses[i] = {position(layer_.world().y, column), orientation(layer_.world().y, column)};
