@@ -19,7 +19,7 @@ namespace {
 struct Options {
   std::string reference;
   std::string cases;  // a,b; empty: all
-  double limit = 10;  // [s]
+  double limit = 15;  // [s]
 };
 
 struct Error {
@@ -83,7 +83,7 @@ std::optional<Run> compare(const Case& c, const Setting& setting, const std::vec
     for (std::size_t i = 0; i < n; ++i)
       include(run.error, poses[i], exact[static_cast<std::size_t>(frame - 1) * n + i]);
     // The first steps may be dearer than the rest.
-    if (run.cpu > limit || (frame >= 10 && run.cpu * c.frames() / frame > limit))
+    if (run.cpu > limit || (frame * 10 >= c.frames() && run.cpu * c.frames() / frame > limit))
       return std::nullopt;
   }
   return run;

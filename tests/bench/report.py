@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """report.py DIRECTORY ROUND.csv...: puts the rounds together, by the median of the cost, and writes
 speed_against_error.csv, .md (tables) and .svg (plot) into the directory.
 
@@ -59,7 +59,8 @@ def cost_text(us):
 
 
 def cell(row):
-    size = "lost" if error(row) >= LOST else "exact" if error(row) == 0 else f"{error(row):.0e}"
+    e = error(row)
+    size = "lost" if e >= LOST else "exact" if e == 0 else f"{e:.1g}" if e >= 0.01 else f"{e:.0e}"
     return f"{size} · {cost_text(row[2])}"
 
 
@@ -112,7 +113,7 @@ def curves(rows, case):
 
 
 def spread(wanted, gap):
-    """Positions as near to the wanted ones as a distance of `gap` allows, in the same order."""
+    """Positions up to 1 as near to the wanted ones as a distance of `gap` allows, in the same order."""
     groups = []  # [sum of wanted minus offset, members]
     for i in sorted(range(len(wanted)), key=lambda i: wanted[i]):
         groups.append([wanted[i], [i]])
@@ -126,6 +127,10 @@ def spread(wanted, gap):
     for total, members in groups:
         for k, i in enumerate(members):
             positions[i] = total / len(members) + k * gap
+    top = 1.0
+    for i in sorted(range(len(wanted)), key=lambda i: -positions[i]):
+        positions[i] = min(positions[i], top)
+        top = positions[i] - gap
     return positions
 
 
@@ -156,15 +161,15 @@ def draw_panel(axes, found, title):
         axes.annotate(label, xy=end, xytext=(1.03, y), textcoords="axes fraction", color=color,
                       fontsize=8.5, va="center", annotation_clip=False,
                       arrowprops={"arrowstyle": "-", "color": color, "linewidth": 0.5, "alpha": 0.5,
-                                  "shrinkA": 0, "shrinkB": 3})
+                                  "relpos": (0, 0.5), "shrinkA": 0, "shrinkB": 3})
 
 
 def draw(path, rows):
     plt.rcParams.update({"font.size": 10, "svg.hashsalt": "poinsot", "axes.titlesize": 11})
-    figure, panels = plt.subplots(2, 2, figsize=(15, 11))
+    figure, panels = plt.subplots(2, 2, figsize=(16, 11))
     for axes, (case, title) in zip(panels.flat, PANELS.items()):
         draw_panel(axes, curves(rows, case), title)
-    figure.subplots_adjust(left=0.055, right=0.865, top=0.95, bottom=0.075, wspace=0.52, hspace=0.24)
+    figure.subplots_adjust(left=0.05, right=0.845, top=0.96, bottom=0.08, wspace=0.66, hspace=0.24)
     figure.text(0.5, 0.015, "A ring marks the default. In the grey band the motion is lost.",
                 ha="center", fontsize=10)
     figure.savefig(path, metadata={"Date": None})

@@ -27,7 +27,7 @@ ninja -C "$build" --quiet bench_speed_against_error bench_reference bench_peers 
 
 bench=$build/tests/bench
 programs=("$bench/bench_speed_against_error" "$bench"/peers/bench_peer_*)
-rm -f "$report"/round_*.csv
+rm -f "$report"/round_*.csv "$report/left_out.log"
 for ((round = 1; round <= rounds; ++round)); do
   for program in "${programs[@]}"; do
     echo "Round $round of $rounds: $(basename "$program")" >&2
@@ -35,7 +35,7 @@ for ((round = 1; round <= rounds; ++round)); do
   done
 done
 
-"$root/tests/bench/report.py" "$report" "$report"/round_*.csv
+/usr/bin/python3 "$root/tests/bench/report.py" "$report" "$report"/round_*.csv
 cat "$report/speed_against_error.md"
 if [[ -n $update ]]; then
   cp "$report/speed_against_error.svg" "$root/tests/bench/"

@@ -15,8 +15,8 @@ struct Mode {
   bool is_finite;
 };
 const std::vector<Mode> kModes = {{"step", dWorldStep, false},
-                                  {"quickstep", dWorldQuickStep, false},
-                                  {"quickstep-finite", dWorldQuickStep, true}};
+                                  {"quick", dWorldQuickStep, false},
+                                  {"quick-finite", dWorldQuickStep, true}};
 
 class Ode final : public Simulation {
  public:
