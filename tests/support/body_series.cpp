@@ -14,9 +14,14 @@ std::size_t at(int i) {
 
 // Component i of a × b from a function that multiplies component a_j by component b_k.
 template <typename Times>
-Quad cross(int i, Times times) {
+auto cross(int i, Times times) {
   const int j = (i + 1) % 3, k = (i + 2) % 3;
   return times(j, k) - times(k, j);
+}
+
+template <typename Real>
+std::array<Real, 3> rounded(const Quad3& a) {
+  return {static_cast<Real>(a[0]), static_cast<Real>(a[1]), static_cast<Real>(a[2])};
 }
 
 }  // namespace
@@ -47,27 +52,34 @@ Quad33 inverse(const Mat3& J) {
   return adjugate;
 }
 
-BodySeries::BodySeries(const ReferenceBody& body)
-    : body_(body), inv_J_(inverse(body.J_B)), springs_(body.springs.size()) {}
+template <typename Real>
+BodySeries<Real>::BodySeries(const ReferenceBody& body)
+    : body_(body), springs_(body.springs.size()) {
+  const Quad33 inv_J = inverse(body.J_B);
+  for (std::size_t i = 0; i < 3; ++i) inv_J_[i] = rounded<Real>(inv_J[i]);
+}
 
-void BodySeries::expand(const QuadState& state, int order) {
+template <typename Real>
+void BodySeries<Real>::expand(const QuadState& state, int order) {
   POINSOT_CHECK(order >= 2 && order <= kMaxOrder);
   order_ = order;
+  origin_ = state;
   const HeldWrench& held = body_.held;
   needs_rotation_ = !springs_.empty() || !held.in_B.force.isZero(0) ||
                     !held.in_W.torque.isZero(0) || !held.moment.isZero(0);
   for (std::size_t i = 0; i < 3; ++i) {
-    c_[i][0] = state.c[i];
-    P_[i][0] = state.P[i];
-    m_[i][0] = state.m[i];
+    c_[i][0] = static_cast<Real>(state.c[i]);
+    P_[i][0] = static_cast<Real>(state.P[i]);
+    m_[i][0] = static_cast<Real>(state.m[i]);
   }
-  for (std::size_t i = 0; i < 4; ++i) q_[i][0] = state.q[i];
+  for (std::size_t i = 0; i < 4; ++i) q_[i][0] = static_cast<Real>(state.q[i]);
   speed_ = {};
   for (Spring& spring : springs_) spring.length = {};
   for (int k = 0; k < order; ++k) extend(k);
 }
 
-void BodySeries::extend(int k) {
+template <typename Real>
+void BodySeries<Real>::extend(int k) {
   for (std::size_t i = 0; i < 3; ++i) {
     omega_[i][at(k)] = 0;
     for (std::size_t j = 0; j < 3; ++j) omega_[i][at(k)] += inv_J_[i][j] * m_[j][at(k)];
@@ -75,42 +87,44 @@ void BodySeries::extend(int k) {
   }
   if (needs_rotation_) extend_rotation(k);
   for (std::size_t s = 0; s < springs_.size(); ++s) extend_spring(body_.springs[s], springs_[s], k);
-  const Quad3 F = force_W(k), tau = torque_B(k);
+  const Real3 F = force_W(k), tau = torque_B(k);
 
-  const Quad n = k + 1;
+  const Real n = k + 1;
   for (int i = 0; i < 3; ++i) {
     c_[at(i)][at(k + 1)] = v_[at(i)][at(k)] / n;
     P_[at(i)][at(k + 1)] = F[at(i)] / n;
-    const Quad gyroscopic =
+    const Real gyroscopic =
         cross(i, [&](int a, int b) { return product(m_[at(a)], omega_[at(b)], k); });
     m_[at(i)][at(k + 1)] = (gyroscopic + tau[at(i)]) / n;
-    const Quad vector = product(q_[3], omega_[at(i)], k) + cross(i, [&](int a, int b) {
+    const Real vector = product(q_[3], omega_[at(i)], k) + cross(i, [&](int a, int b) {
                           return product(q_[at(a)], omega_[at(b)], k);
                         });
     q_[at(i)][at(k + 1)] = vector / (2 * n);
   }
-  Quad scalar = 0;
+  Real scalar = 0;
   for (std::size_t i = 0; i < 3; ++i) scalar -= product(q_[i], omega_[i], k);
   q_[3][at(k + 1)] = scalar / (2 * n);
 }
 
-void BodySeries::extend_rotation(int k) {
+template <typename Real>
+void BodySeries<Real>::extend_rotation(int k) {
   const auto p = [&](std::size_t i, std::size_t j) { return product(q_[i], q_[j], k); };
-  const Quad xx = p(0, 0), yy = p(1, 1), zz = p(2, 2), ww = p(3, 3);
-  const Quad xy = p(0, 1), xz = p(0, 2), yz = p(1, 2), wx = p(3, 0), wy = p(3, 1), wz = p(3, 2);
-  const Quad33 R = {{{ww + xx - yy - zz, 2 * (xy - wz), 2 * (xz + wy)},
-                     {2 * (xy + wz), ww - xx + yy - zz, 2 * (yz - wx)},
-                     {2 * (xz - wy), 2 * (yz + wx), ww - xx - yy + zz}}};
+  const Real xx = p(0, 0), yy = p(1, 1), zz = p(2, 2), ww = p(3, 3);
+  const Real xy = p(0, 1), xz = p(0, 2), yz = p(1, 2), wx = p(3, 0), wy = p(3, 1), wz = p(3, 2);
+  const std::array<Real3, 3> R = {{{ww + xx - yy - zz, 2 * (xy - wz), 2 * (xz + wy)},
+                                   {2 * (xy + wz), ww - xx + yy - zz, 2 * (yz - wx)},
+                                   {2 * (xz - wy), 2 * (yz + wx), ww - xx - yy + zz}}};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) R_[i][j][at(k)] = R[i][j];
 }
 
-Quad3 BodySeries::force_W(int k) {
-  Quad3 F{};
+template <typename Real>
+auto BodySeries<Real>::force_W(int k) -> Real3 {
+  Real3 F{};
   if (body_.drag_quadratic != 0) speed_.extend(v_, k);
   for (int i = 0; i < 3; ++i) {
-    Quad& f = F[at(i)];
-    if (k == 0) f = Quad(body_.mass) * body_.gravity[i] + body_.held.in_W.force[i];
+    Real& f = F[at(i)];
+    if (k == 0) f = Real(body_.mass) * body_.gravity[i] + body_.held.in_W.force[i];
     if (needs_rotation_)
       for (int j = 0; j < 3; ++j) f += R_[at(i)][at(j)][at(k)] * body_.held.in_B.force[j];
     f -= body_.drag_linear * v_[at(i)][at(k)];
@@ -121,24 +135,25 @@ Quad3 BodySeries::force_W(int k) {
   return F;
 }
 
-Quad3 BodySeries::torque_B(int k) {
-  Quad3 tau{};
+template <typename Real>
+auto BodySeries<Real>::torque_B(int k) -> Real3 {
+  Real3 tau{};
   const Mat3& M = body_.held.moment;
   for (int i = 0; i < 3; ++i) {
-    Quad& t = tau[at(i)];
+    Real& t = tau[at(i)];
     if (k == 0) t = body_.held.in_B.torque[i];
     t -= body_.drag_angular * omega_[at(i)][at(k)];
     if (!needs_rotation_) continue;
     for (int j = 0; j < 3; ++j) t += R_[at(j)][at(i)][at(k)] * body_.held.in_W.torque[j];
     // Σ p × Rᵀ F is the axial vector of M R, M = Σ p Fᵀ.
     t += cross(i, [&](int a, int b) {
-      Quad sum = 0;
+      Real sum = 0;
       for (int l = 0; l < 3; ++l) sum += M(a, l) * R_[at(l)][at(b)][at(k)];
       return sum;
     });
     for (std::size_t s = 0; s < springs_.size(); ++s)
       t += cross(i, [&](int a, int b) {
-        Quad force_B = 0;
+        Real force_B = 0;
         for (std::size_t l = 0; l < 3; ++l)
           force_B += product(R_[l][at(b)], springs_[s].force_W[l], k);
         return body_.springs[s].point_B[a] * force_B;
@@ -147,12 +162,13 @@ Quad3 BodySeries::torque_B(int k) {
   return tau;
 }
 
-void BodySeries::extend_spring(const ReferenceSpring& def, Spring& spring, int k) {
+template <typename Real>
+void BodySeries<Real>::extend_spring(const ReferenceSpring& def, Spring& spring, int k) {
   for (int i = 0; i < 3; ++i)
     spring.lever_rate[at(i)][at(k)] =
         cross(i, [&](int a, int b) { return omega_[at(a)][at(k)] * def.point_B[b]; });
   for (int i = 0; i < 3; ++i) {
-    Quad x = c_[at(i)][at(k)], rate = v_[at(i)][at(k)];
+    Real x = c_[at(i)][at(k)], rate = v_[at(i)][at(k)];
     if (k == 0) x -= def.point_W[i];
     for (int j = 0; j < 3; ++j) {
       x += R_[at(i)][at(j)][at(k)] * def.point_B[j];
@@ -168,9 +184,9 @@ void BodySeries::extend_spring(const ReferenceSpring& def, Spring& spring, int k
     return;
   }
   spring.length.extend(spring.x, k);
-  const Series& d = spring.length.series();
+  const Series<Real>& d = spring.length.series();
   for (std::size_t i = 0; i < 3; ++i) {
-    Quad rest = spring.x[i][at(k)];
+    Real rest = spring.x[i][at(k)];
     for (int j = 1; j <= k; ++j) rest -= d[at(j)] * spring.along[i][at(k - j)];
     spring.along[i][at(k)] = rest / d[0];
   }
@@ -183,42 +199,59 @@ void BodySeries::extend_spring(const ReferenceSpring& def, Spring& spring, int k
                                def.damping * product(spring.stretch_rate, spring.along[i], k);
 }
 
-bool BodySeries::fits(double h, double tolerance) const {
-  const auto decays = [&](const auto& x) {
+template <typename Real>
+double BodySeries<Real>::step(double tolerance) const {
+  constexpr double kLongest = 64, kShortest = 1e-9;       // [s]
+  std::array<std::array<double, kMaxOrder + 1>, 4> size;  // of coefficient k of c, P, m, q
+  const auto measure = [&](const auto& x, int k) {
+    double largest = 0;
+    for (const Series<Real>& component : x)
+      largest = std::max(largest, std::abs(static_cast<double>(component[at(k)])));
+    return largest;
+  };
+  for (int k = 0; k <= order_; ++k) {
+    size[0][at(k)] = measure(c_, k);
+    size[1][at(k)] = measure(P_, k);
+    size[2][at(k)] = measure(m_, k);
+    size[3][at(k)] = measure(q_, k);
+  }
+  const auto decays = [&](const auto& x, double h) {
     double power = 1, largest = 0, last = 0;
     for (int k = 0; k <= order_; ++k, power *= h) {
-      double term = 0;
-      for (const Series& component : x)
-        term = std::max(term, std::abs(static_cast<double>(component[at(k)])) * power);
-      largest = std::max(largest, term);
-      if (k >= order_ - 1) last = std::max(last, term);
+      largest = std::max(largest, x[at(k)] * power);
+      if (k >= order_ - 1) last = std::max(last, x[at(k)] * power);
     }
     return last <= tolerance * largest;
   };
-  return decays(c_) && decays(P_) && decays(m_) && decays(q_);
-}
-
-double BodySeries::step(double tolerance) const {
-  constexpr double kLongest = 64, kShortest = 1e-9;  // [s]
   double h = kLongest;
-  while (h > kShortest && !fits(h, tolerance)) h *= 0.85;
+  while (h > kShortest &&
+         !std::all_of(size.begin(), size.end(), [&](const auto& x) { return decays(x, h); }))
+    h *= 0.9;
   return std::max(h, kShortest);
 }
 
-QuadState BodySeries::state_at(Quad h) const {
-  QuadState state;
+template <typename Real>
+QuadState BodySeries<Real>::state_at(Quad h) const {
+  QuadState state = origin_;
+  const Real step = static_cast<Real>(h);
   for (std::size_t i = 0; i < 3; ++i) {
-    state.c[i] = value(c_[i], order_, h);
-    state.P[i] = value(P_[i], order_, h);
-    state.m[i] = value(m_[i], order_, h);
+    state.c[i] += change(c_[i], order_, step);
+    state.P[i] += change(P_[i], order_, step);
+    state.m[i] += change(m_[i], order_, step);
   }
-  for (std::size_t i = 0; i < 4; ++i) state.q[i] = value(q_[i], order_, h);
+  for (std::size_t i = 0; i < 4; ++i) state.q[i] += change(q_[i], order_, step);
   state.q = normalized(state.q);
   return state;
 }
 
-Quad3 BodySeries::momentum_B_at(Quad h) const {
-  return {value(m_[0], order_, h), value(m_[1], order_, h), value(m_[2], order_, h)};
+template <typename Real>
+Quad3 BodySeries<Real>::momentum_B_at(Quad h) const {
+  Quad3 m = origin_.m;
+  for (std::size_t i = 0; i < 3; ++i) m[i] += change(m_[i], order_, static_cast<Real>(h));
+  return m;
 }
+
+template class BodySeries<Quad>;
+template class BodySeries<long double>;
 
 }  // namespace poinsot::test

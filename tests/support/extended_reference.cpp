@@ -1,6 +1,7 @@
 #include "support/extended_reference.h"
 
 #include <utility>
+#include <variant>
 
 #include "poinsot/base/check.h"
 #include "support/body_series.h"
@@ -51,12 +52,21 @@ double angle(const Quad4& a, const Quad4& b) {
   return static_cast<double>(2 * atan2q(sqrtq(dot(v, v)), fabsq(w)));
 }
 
+using AnySeries = std::variant<BodySeries<Quad>, BodySeries<long double>>;
+
+AnySeries series_of(const ReferenceBody& body, const ReferenceOptions& options) {
+  if (options.quad) return BodySeries<Quad>(body);
+  return BodySeries<long double>(body);
+}
+
 }  // namespace
 
 struct ExtendedReference::Motion {
-  BodySeries series;
+  ReferenceBody body;
   ReferenceOptions options;
-  QuadState now;
+  Quad33 inv_J;
+  AnySeries series;
+  QuadState now = {};
   Quad t = 0;       // [s]
   Quad anchor = 0;  // [s] the series' origin
   double step = 0;  // [s] up to which the series holds
@@ -66,14 +76,14 @@ struct ExtendedReference::Motion {
 
   void expand() {
     anchor = t;
-    series.expand(now, options.order);
-    step = series.step(options.tolerance);
+    std::visit([&](auto& s) { s.expand(now, options.order); }, series);
+    step = std::visit([&](const auto& s) { return s.step(options.tolerance); }, series);
   }
 
   // Moves on to anchor + h, h ≤ step.
   void move(Quad h) {
     phase += turned(t - anchor, h);
-    now = series.state_at(h);
+    now = std::visit([&](const auto& s) { return s.state_at(h); }, series);
     t = anchor + h;
   }
 
@@ -82,23 +92,27 @@ struct ExtendedReference::Motion {
     const double width = static_cast<double>(to - from);
     double sum = 0;
     for (const auto& [node, weight] :
-         {std::pair{-0.7745966692414834, 5.0 / 9}, {0.0, 8.0 / 9}, {0.7745966692414834, 5.0 / 9}})
-      sum += weight *
-             rounded(times(series.inv_J(), series.momentum_B_at(from + (0.5 * width) * (1 + node))))
-                 .norm();
+         {std::pair{-0.7745966692414834, 5.0 / 9}, {0.0, 8.0 / 9}, {0.7745966692414834, 5.0 / 9}}) {
+      const Quad h = from + (0.5 * width) * (1 + node);
+      const Quad3 m = std::visit([&](const auto& s) { return s.momentum_B_at(h); }, series);
+      sum += weight * rounded(times(inv_J, m)).norm();
+    }
     return 0.5 * width * sum;
   }
 
   Quad3 angular_momentum() const { return times(rotation(now.q), now.m); }
   Quad energy() const {
-    return (dot(now.P, now.P) / series.body().mass + dot(now.m, times(series.inv_J(), now.m))) / 2;
+    return (dot(now.P, now.P) / body.mass + dot(now.m, times(inv_J, now.m))) / 2;
   }
 };
 
 ExtendedReference::ExtendedReference(const ReferenceBody& body, const Vec3& c, const Quat& q,
                                      const Vec3& P_W, const Vec3& L_W,
                                      const ReferenceOptions& options)
-    : motion_(new Motion{.series = BodySeries(body), .options = options, .now = {}}) {
+    : motion_(new Motion{.body = body,
+                         .options = options,
+                         .inv_J = inverse(body.J_B),
+                         .series = series_of(body, options)}) {
   Motion& m = *motion_;
   m.now.c = quad(c);
   m.now.P = quad(P_W);
@@ -123,7 +137,7 @@ void ExtendedReference::advance_to(double t) {
 }
 
 void ExtendedReference::hold(const HeldWrench& held) {
-  motion_->series.hold(held);
+  std::visit([&](auto& s) { s.hold(held); }, motion_->series);
   motion_->expand();
 }
 
@@ -151,7 +165,7 @@ Vec3 ExtendedReference::angular_momentum_B() const {
 
 Vec3 ExtendedReference::angular_velocity() const {
   const Motion& m = *motion_;
-  return rounded(times(rotation(m.now.q), times(m.series.inv_J(), m.now.m)));
+  return rounded(times(rotation(m.now.q), times(m.inv_J, m.now.m)));
 }
 
 double ExtendedReference::kinetic_energy() const {

@@ -4,7 +4,8 @@
 //
 // F, τ: gravity, a held wrench, drag, springs to points of W. Taylor series of high order in 113
 // bits, steps by the decay of the coefficients: a local error of 1e-30 relative to each quantity.
-// Inputs are exact doubles; outputs are rounded once, errors are formed before rounding.
+// Inputs are exact doubles; outputs are rounded once, errors are formed before rounding. It costs
+// some 2 ms per radian turned; kQuick is twenty times faster, with a local error of 1e-20.
 //
 // Near the separatrix of free rotation errors are amplified by up to 1/k'²: about 1e-32/k'² rad is
 // left once the body has turned over. Quadratic drag through v = 0 and springs through zero length
@@ -42,7 +43,9 @@ struct ReferenceBody {
 struct ReferenceOptions {
   int order = 30;            // at most kMaxOrder
   double tolerance = 1e-30;  // [-] of the last two terms of a step
+  bool quad = true;          // coefficients of 113 bits, else of 64
 };
+inline constexpr ReferenceOptions kQuick = {.order = 20, .tolerance = 1e-20, .quad = false};
 
 class ExtendedReference {
  public:
