@@ -60,7 +60,7 @@ def cost_text(us):
 
 def cell(row):
     e = error(row)
-    size = "lost" if e >= LOST else "exact" if e == 0 else f"{e:.1g}" if e >= 0.01 else f"{e:.0e}"
+    size = "lost" if e >= LOST else "exact" if e == 0 else f"{e:.2g}" if e >= 0.01 else f"{e:.0e}"
     return f"{size} · {cost_text(row[2])}"
 
 
@@ -180,7 +180,7 @@ def main():
     rows = read_rounds(paths)
     write_csv(f"{directory}/speed_against_error.csv", rows)
     with open(f"{directory}/speed_against_error.md", "w") as file:
-        file.write(tables(rows))
+        file.write(f"\n{tables(rows)}\n")
     draw(f"{directory}/speed_against_error.svg", rows)
 
 
