@@ -20,7 +20,7 @@ namespace poinsot::bench {
 class Simulation {
  public:
   virtual ~Simulation() = default;
-  virtual void advance_to(double t) = 0;               // [s] the next output
+  virtual void advance_to(double t) = 0;                  // [s] the next output
   virtual void read(std::vector<Pose>& poses) const = 0;  // of the bodies' centres of mass
 };
 
