@@ -75,6 +75,25 @@ double exponential(double x) {
   return std::ldexp(exp_series<13>(r), static_cast<int>(n));
 }
 
+double logarithm(double x) {
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);  // ½ … 1
+  if (m < 0.70710678118654752) {
+    m *= 2;
+    --exponent;
+  }
+  // ln m = 2 artanh s, |s| < 0.172
+  const double s = (m - 1) / (m + 1), z = s * s;
+  double sum = 0;
+  for (int n = 21; n >= 3; n -= 2) sum = z * (1.0 / n + sum);
+  constexpr double kHigh = 6.93147180369123816490e-01, kLow = 1.90821492927058770002e-10;
+  return exponent * kHigh + (2 * s + (2 * s * sum + exponent * kLow));
+}
+
+double power(double x, double y) {
+  return exponential(y * logarithm(x));
+}
+
 long double exponential(long double x) {
   constexpr long double kHigh = 6.93147180369123816490e-01L, kLow = 1.90821492927058781614e-10L;
   const long double n = std::nearbyint(x * 1.442695040888963407359924681L);
