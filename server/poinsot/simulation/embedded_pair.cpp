@@ -15,6 +15,11 @@ double norm3(const SystemState& y, Eigen::Index row, Eigen::Index i) {
   return y.block<3, 1>(row, i).norm();
 }
 
+// Not a number if one of them is none: std::max would hide it.
+double larger(double a, double b) {
+  return a < b || std::isnan(b) ? b : a;
+}
+
 void normalize(SystemState& y) {
   for (Eigen::Index i = 0; i < y.cols(); ++i) y.block<4, 1>(3, i).normalize();
 }
@@ -35,12 +40,12 @@ double relative_error(const System& system, const SystemState& from, const Syste
         const double reach = std::max(norm3(from, 0, i), kTiny);
         const double moved =
             h * system.bodies[static_cast<std::size_t>(i)].inv_mass * norm3(error, 7, i) / reach;
-        largest = std::max(largest, std::min(relative, std::max(moved, 0.0)));
+        largest = larger(largest, std::min(relative, std::max(moved, 0.0)));
         continue;
       }
-      largest = std::max(largest, relative);
+      largest = larger(largest, relative);
     }
-    largest = std::max(largest, 2 * error.block<4, 1>(3, i).norm());
+    largest = larger(largest, 2 * error.block<4, 1>(3, i).norm());
   }
   return largest;
 }

@@ -46,7 +46,7 @@ void Rosenbrock::prepare(Eigen::Index n) {
 }
 
 // Column by column; nothing depends on W and H.
-void Rosenbrock::differentiate(const System& system, const SystemState& y) {
+void Rosenbrock::differentiate(const System& system, const SystemState& y, double h) {
   constexpr double kStep = 1.5e-8;  // the square root of a rounding
   system.derivative(y, rate_);
   jacobian_.setZero();
@@ -54,9 +54,11 @@ void Rosenbrock::differentiate(const System& system, const SystemState& y) {
   SystemState& changed = g_[0];
   for (Eigen::Index i = 0; i < y.cols(); ++i)
     for (Eigen::Index row = 0; row < 13; ++row) {
-      const double size = row == 3 || row == 4 || row == 5 || row == 6
-                              ? 1.0
-                              : y.block<3, 1>(row < 3 ? 0 : (row < 10 ? 7 : 10), i).norm();
+      // What a quantity has or gains: a momentum of zero is about to be one.
+      const Eigen::Index first = row < 3 ? 0 : (row < 10 ? 7 : 10);
+      const double size = row >= 3 && row < 7 ? 1.0
+                                              : std::max(y.block<3, 1>(first, i).norm(),
+                                                         h * rate_.block<3, 1>(first, i).norm());
       const double step = kStep * std::max(size, 1e-6);
       probe_(row, i) = y(row, i) + step;
       system.derivative(probe_, changed);
@@ -70,7 +72,7 @@ void Rosenbrock::solve(SystemState& stage) {
 }
 
 void Rosenbrock::step(const System& system, const SystemState& y, double h) {
-  differentiate(system, y);
+  differentiate(system, y, h);
   matrix_ = -jacobian_;
   matrix_.diagonal().array() += 1 / (kGamma * h);
   factors_.compute(matrix_);

@@ -26,7 +26,7 @@ class Rosenbrock {
   const SystemState& end() const { return end_; }
 
  private:
-  void differentiate(const System& system, const SystemState& y);
+  void differentiate(const System& system, const SystemState& y, double h);
   void solve(SystemState& stage);
 
   Eigen::MatrixXd jacobian_, matrix_;

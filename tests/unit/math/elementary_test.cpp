@@ -87,8 +87,8 @@ TEST(Power, LosesWhatTheProductLoses) {
       const double x = std::ldexp(1 + 1e-3 * i, (i % 61) - 30);
       const long double exact = std::pow(static_cast<long double>(x), static_cast<long double>(y));
       const double argument = std::abs(y * std::log(x));
-      const double error = std::abs(static_cast<double>(
-          (static_cast<long double>(power(x, y)) - exact) / exact));
+      const double error =
+          std::abs(static_cast<double>((static_cast<long double>(power(x, y)) - exact) / exact));
       EXPECT_LE(error, kUlp * (1.5 + 3 * argument)) << x << "^" << y;
     }
   EXPECT_EQ(power(7.0, 0.0), 1.0);

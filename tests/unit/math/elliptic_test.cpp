@@ -53,7 +53,7 @@ TEST(CompleteK, GrowsAsTheLogarithmOfTheComplement) {
 // Legendre's relation needs E; E(k) = K − (K/2) Σ 2ⁿ cₙ² by the same means (A&S 17.6.4).
 long double complete_e(long double k, long double k_complement) {
   long double a = 1, b = k_complement, c = k, sum = k * k, weight = 1;
-  while (std::abs(c) > 1e-20L) {
+  while (std::abs(c) > 1e-12L) {
     const long double next = (a + b) / 2;
     c = (a - b) / 2;
     b = std::sqrt(a * b);

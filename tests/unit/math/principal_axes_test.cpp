@@ -102,7 +102,8 @@ TEST(PrincipalAxes, FindTheSmallMomentOfAnObliqueNeedle) {
   }
 }
 
-// Entries that are exact in double and oblique axes: a plane turned by (3 4)/5, with moments 25 and 50.
+// Entries that are exact in double and oblique axes: a plane turned by (3 4)/5, with moments 25
+// and 50.
 TEST(PrincipalAxes, FindMomentsBeyondDouble) {
   Mat3 J = Mat3::Zero();  // 25 of (3 4)/5, 50 of (4 −3)/5
   J(0, 0) = 9 + 2 * 16;

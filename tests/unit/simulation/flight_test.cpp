@@ -6,8 +6,8 @@
 
 #include "poinsot/math/rotation.h"
 #include "poinsot/simulation/simulation_layer.h"
-#include "simulation/sample_system.h"
 #include "support/closed_forms.h"
+#include "unit/simulation/sample_system.h"
 
 namespace poinsot {
 namespace {

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "poinsot/math/rotation.h"
@@ -69,6 +72,20 @@ inline BodyDef tumbler() {
   def.pose = {{0.3, -0.2, 0.5}, Quat(0.5, 0.5, -0.5, 0.5)};
   def.linear_velocity = {1, -2, 0.5};
   def.angular_velocity = {1, 3, 2};
+  return def;
+}
+
+// Between point p_a of body a and p_b of body b, or of W if b is empty.
+inline SpringDef spring(std::string a, const Vec3& p_a, std::string b, const Vec3& p_b,
+                        double stiffness, double damping, std::optional<double> rest) {
+  SpringDef def;
+  def.a = std::move(a);
+  def.b = std::move(b);
+  def.point_a = p_a;
+  def.point_b = p_b;
+  def.stiffness = stiffness;
+  def.damping = damping;
+  def.rest_length = rest;
   return def;
 }
 

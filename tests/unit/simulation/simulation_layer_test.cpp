@@ -1,9 +1,13 @@
 #include "poinsot/simulation/simulation_layer.h"
 
+#include <cmath>
+#include <cstring>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "poinsot/base/error.h"
 #include "poinsot/simulation/diagnostics.h"
 #include "support/scene_builder.h"
 
@@ -73,6 +77,65 @@ TEST(SimulationLayer, ItsWorkIsTheChangeOfEnergy) {
   }
   const double after = kinetic_energy(layer.world()) + potential_energy(layer.world());
   EXPECT_NEAR(after - before, layer.work(), 1e-13 * std::abs(before + after));
+}
+
+// Nothing has moved, and nothing has begun to.
+void expect_refused(SimulationLayer& layer, double t) {
+  const StateArray y = layer.world().y;
+  const double time = layer.world().time, work = layer.work();
+  Hash64 before, after;
+  layer.hash_into(before);
+  EXPECT_THROW(layer.advance_to(t), Error);
+  layer.hash_into(after);
+  EXPECT_EQ(std::memcmp(layer.world().y.data(), y.data(),
+                        static_cast<std::size_t>(y.size()) * sizeof(double)),
+            0);
+  EXPECT_EQ(layer.world().time, time);
+  EXPECT_EQ(layer.work(), work);
+  EXPECT_EQ(after.value(), before.value());
+}
+
+TEST(SimulationLayer, RefusesTimesThatAreNone) {
+  SimulationLayer layer(test::scene({test::body("ball", Sphere{1}, {0, 0, 9})}));
+  layer.advance_to(1);
+  for (const double t :
+       {0.5, -1.0, std::nextafter(1.0, 0.0), kNaN, std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity()})
+    expect_refused(layer, t);
+  layer.advance_to(1);  // the present is no past
+  EXPECT_EQ(layer.world().time, 1);
+}
+
+TEST(SimulationLayer, RefusesAHeldWrenchThatIsNoNumberBeforeAnythingMoves) {
+  SimulationLayer layer(test::scene(
+      {test::body("first", Sphere{1}, {0, 0, 9}), test::body("second", Sphere{1}, {5, 0, 9})}));
+  layer.advance_to(1);
+  HeldWrench& held = layer.world().held[1];
+  for (double* value : {&held.in_W.force.x(), &held.in_W.torque.y(), &held.in_B.force.z(),
+                        &held.in_B.torque.x(), &held.moment(1, 2)})
+    for (const double bad : {kNaN, std::numeric_limits<double>::infinity()}) {
+      *value = bad;
+      expect_refused(layer, 2);
+      *value = 0;
+    }
+  layer.advance_to(2);
+  EXPECT_EQ(layer.quarantined(), 0u);
+}
+
+TEST(SimulationLayer, RefusalsSayWhatIsWrong) {
+  SimulationLayer layer(test::scene({test::body("ball", Sphere{1}, {0, 0, 9})}));
+  layer.advance_to(1);
+  const auto text_of = [&](double t) {
+    try {
+      layer.advance_to(t);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(text_of(0.5).find("backwards"), std::string::npos);
+  layer.world().held[0].in_W.force.x() = kNaN;
+  EXPECT_NE(text_of(2).find("'ball'"), std::string::npos);
 }
 
 TEST(Energy, IsThatOfTheTextbook) {

@@ -53,7 +53,7 @@ void expect_exact(const Rotation& r, const std::vector<double>& times, double gr
     ASSERT_LE(of_reference, 1e-16);
     const double error = reference.orientation_error(rotation.at(t));
     EXPECT_LE(error, rotation.error(t) + of_reference) << "at " << t << " s";
-    EXPECT_NEAR(rotation.at(t).norm(), 1, 4e-16);
+    EXPECT_NEAR(rotation.at(t).norm(), 1, 6.7e-16);  // a product of three: 3 ε
     worst = std::max(worst, error / rotation.error(t));
   }
   EXPECT_LE(rotation.error(times.back()), 1e-14 + 2e-18 * largest_spin(r) * times.back());
@@ -75,8 +75,8 @@ TEST(TorqueFree, FollowsTheTennisRacket) {
 }
 
 TEST(TorqueFree, FollowsEveryOrderOfTheMoments) {
-  for (const Vec3& moments : {Vec3(1, 2, 3), Vec3(1, 3, 2), Vec3(2, 1, 3), Vec3(2, 3, 1),
-                              Vec3(3, 1, 2), Vec3(3, 2, 1)})
+  for (const Vec3& moments :
+       {Vec3(1, 2, 3), Vec3(1, 3, 2), Vec3(2, 1, 3), Vec3(2, 3, 1), Vec3(3, 1, 2), Vec3(3, 2, 1)})
     for (const Vec3& omega : {Vec3(1, 3, 2), Vec3(-2, 0.5, -1)})
       expect_exact(spinning(moments, omega), every(0.7, 4.2));
 }
@@ -145,7 +145,7 @@ TEST(TorqueFree, FollowsPureSpinAboutEachAxis) {
 TEST(TorqueFree, FollowsNeedlesAndDiscs) {
   expect_exact(spinning({1e-6, 1, 1 + 5e-7}, {3, 1, 2}), every(1.3, 13));
   expect_exact(spinning({1e-6, 1, 1}, {3, 1, 2}), every(1.3, 13));
-  expect_exact(spinning({1, 1e-6, 1 + 1e-6}, {1, 100, 2}), every(0.5, 2));   // a flat needle
+  expect_exact(spinning({1, 1e-6, 1 + 1e-6}, {1, 100, 2}), every(0.5, 2));  // a flat needle
   expect_exact(spinning({1e-6, 1, 1 + 5e-7}, {300, 0.1, 2}), every(0.3, 1));
   expect_exact(spinning({1, 1 + 1e-6, 2 + 1e-6}, {3, 1, 2}), every(1.3, 13));  // a disc
   expect_exact(spinning({1, 1, 2}, {3, 1, 2}), every(1.3, 13));
@@ -184,16 +184,16 @@ TEST(TorqueFree, ScalesFromSlowestToFastestSpin) {
     Rotation scaled = unit;
     scaled.L *= std::ldexp(1.0, exponent);
     for (const double t : {0.3, 2.0, 11.0})
-      EXPECT_LE(angle_between(torque_free(scaled).at(std::ldexp(t, -exponent)),
-                              torque_free(unit).at(t)),
-                1e-15)
+      EXPECT_LE(
+          angle_between(torque_free(scaled).at(std::ldexp(t, -exponent)), torque_free(unit).at(t)),
+          1e-15)
           << exponent;
   }
 }
 
 TEST(TorqueFree, FollowsHugeSpin) {
   expect_exact(spinning({1, 2, 3}, {500, 700, 510}), {0.1, 0.3});
-  expect_exact(spinning({1, 2, 3}, {1, 1000, 1}), {0.05, 0.2}, 1000 / std::sqrt(3.0));
+  expect_exact(spinning({1, 2, 3}, {1, 1000, 1}), {0.02, 0.06}, 1000 / std::sqrt(3.0));
 }
 
 // After 1e4 rad and more the reference of 64 bits is left with 1e-19 of the phase squared.
@@ -224,8 +224,8 @@ TEST(TorqueFree, IsTheSameInWhateverOrderItIsAsked) {
 
 TEST(TorqueFree, StartsAtItsStart) {
   const Quat q = Quat(0.1, 0.2, -0.3, 0.9).normalized();
-  for (const Vec3& omega : {Vec3(1, 3, 2), Vec3(1e-3, 5, 1e-3), Vec3(1e-12, 5, 1e-12),
-                            Vec3(5, 0, 0), Vec3(0, 0, 0)})
+  for (const Vec3& omega :
+       {Vec3(1, 3, 2), Vec3(1e-3, 5, 1e-3), Vec3(1e-12, 5, 1e-12), Vec3(5, 0, 0), Vec3(0, 0, 0)})
     for (const Vec3& moments : {Vec3(1, 2, 3), Vec3(2, 2, 1), Vec3(2, 2, 2)}) {
       Rotation r = spinning(moments, omega);
       r.q = q;
