@@ -269,6 +269,21 @@ double TaylorSeries::squared_term(const System& system) const {
   return largest;
 }
 
+// A series of |v| goes on through zero to negative values; nature turns round.
+bool TaylorSeries::passed_standstill(const System& system, double h, const SystemState& y) const {
+  constexpr double kSame = 1e-6;
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    const SystemBody& body = system.bodies[i];
+    if (!(body.drag.quadratic > 0)) continue;
+    double speed = series_[i].speed[static_cast<std::size_t>(order_) - 1];
+    for (std::size_t k = static_cast<std::size_t>(order_) - 1; k-- > 0;)
+      speed = series_[i].speed[k] + h * speed;
+    const double actual = body.inv_mass * y.block<3, 1>(7, static_cast<Eigen::Index>(i)).norm();
+    if (!(std::abs(speed - actual) <= kSame * std::max(actual, series_[i].speed[0]))) return true;
+  }
+  return false;
+}
+
 bool TaylorSeries::advance(const System& system, SystemState& y, double duration, double tolerance,
                            int most_steps, LocalError& error) {
   // The last term is the error of a series one order shorter: the one before may be larger.
@@ -298,6 +313,7 @@ bool TaylorSeries::advance(const System& system, SystemState& y, double duration
       if (!(h * most_steps > duration)) return false;
     }
     evaluate(system, h, y);
+    if (passed_standstill(system, h, y)) return false;
     error += last_terms(system, h);
     left -= h;
   }
