@@ -15,6 +15,7 @@ namespace poinsot {
 
 class Rosenbrock {
  public:
+  // For systems of n bodies; again costs nothing.
   void prepare(Eigen::Index n);
 
   // As EmbeddedRungeKutta::advance, from `done` on; false after `most_steps`.
@@ -26,7 +27,7 @@ class Rosenbrock {
   const SystemState& end() const { return end_; }
 
  private:
-  void differentiate(const System& system, const SystemState& y);
+  void differentiate(const System& system, const SystemState& y, double h);
   void solve(SystemState& stage);
 
   Eigen::MatrixXd jacobian_, matrix_;

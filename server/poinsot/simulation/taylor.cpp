@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "poinsot/math/elementary.h"
 
@@ -264,7 +265,9 @@ double TaylorSeries::squared_term(const System& system) const {
   double largest = 0;
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const SeriesSquares& square = series_[i].squares;
-    largest = std::max({largest, square.R, square.v * scales_[i].v, square.m * scales_[i].m});
+    const double v = square.v * scales_[i].v, m = square.m * scales_[i].m;
+    if (!std::isfinite(square.R + v + m)) return std::numeric_limits<double>::infinity();
+    largest = std::max({largest, square.R, v, m});
   }
   return largest;
 }
