@@ -1,0 +1,46 @@
+// Reference: what errors are measured against, computed by several methods side by side and
+// certified by the agreement of two that have nothing in common.
+//
+// The certificate at a time is the largest difference of the two up to then. It grows; where it
+// passes the limit the horizon is reached: nobody knows where the bodies are after that.
+
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <stop_token>
+#include <vector>
+
+#include "poinsot/study/path.h"
+#include "poinsot/study/study.h"
+
+namespace poinsot {
+
+struct Reference {
+  Path path;
+  std::vector<PoseError> certificate;  // up to each kept frame, frame 0 first
+  std::uint64_t frames = 0;            // the horizon: the last kept frame
+  ReferenceInfo info;
+};
+
+struct ReferenceOptions {
+  std::uint64_t frames = 0;  // asked for
+  std::uint64_t stride = 1;  // frames from one comparison to the next
+  PoseError limit;           // of the disagreement
+  std::chrono::steady_clock::time_point deadline;
+  std::function<void(double)> progress = [](double) {};  // 0 … 1
+};
+
+// The methods at their tightest: closed form and series, the series, DOP853.
+std::vector<Setting> reference_settings(const Scene& scene);
+
+// Runs the scene with the candidates (two or more) side by side. The pair of independent ones that
+// agrees best certifies; the first of it is the reference. frames is 0 if none agree on one frame.
+Reference make_reference(const Scene& scene, const std::vector<Setting>& candidates,
+                         const ReferenceOptions& options, std::stop_token stop);
+
+// The disagreement that ends the horizon: 1e-6 rad and 1e-6 of the largest body's radius of
+// gyration, and a tenth of the wanted error (0: none) in m and rad if that is less.
+PoseError agreement_limit(const Scene& scene, double wanted_error);
+
+}  // namespace poinsot
