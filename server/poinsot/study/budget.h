@@ -16,10 +16,11 @@ class Budget {
         runs_(runs),
         left_(runs) {}
 
-  // The time by which the next `runs` are to end. They are taken off.
-  Clock::time_point deadline(std::size_t runs = 1) {
+  // The time by which the next `runs` are to end, that need but this part of their share. They are
+  // taken off.
+  Clock::time_point deadline(std::size_t runs = 1, double part = 1) {
     const Clock::time_point now = Clock::now();
-    const double share = static_cast<double>(runs) / static_cast<double>(left_);
+    const double share = part * static_cast<double>(runs) / static_cast<double>(left_);
     left_ -= runs;
     return now + std::chrono::duration_cast<Clock::duration>((end_ - now) * share);
   }

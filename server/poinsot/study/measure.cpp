@@ -53,8 +53,7 @@ double magnitude(double x) {
 }  // namespace
 
 std::optional<Measurement> measure(const Scene& scene, const Setting& setting,
-                                   const Reference& reference, std::uint64_t stride,
-                                   const RunLimit& limit) {
+                                   const Reference& reference, const RunLimit& limit) {
   const Patience patience(limit);
   PresentationLayer layer(with(scene, setting));
   MethodsUsed used;
@@ -68,8 +67,8 @@ std::optional<Measurement> measure(const Scene& scene, const Setting& setting,
     used.see(report);
     row.energy_error = std::max(row.energy_error, magnitude(report.energy_error));
     row.momentum_error = std::max(row.momentum_error, magnitude(report.momentum_error));
-    if (layer.frame() % stride != 0 && layer.frame() != reference.frames) continue;
-    const std::size_t kept = (layer.frame() + stride - 1) / stride;
+    if (layer.frame() % reference.stride != 0 && layer.frame() != reference.frames) continue;
+    const std::uint64_t kept = (layer.frame() + reference.stride - 1) / reference.stride;
     row.measured = largest(row.measured, reference.path.distance(kept, layer.snapshot()));
   }
   row.methods = used.list();

@@ -25,8 +25,7 @@ struct Measurement {
 
 // Runs the setting once, up to the horizon. Nothing if the limit comes first, or is bound to.
 std::optional<Measurement> measure(const Scene& scene, const Setting& setting,
-                                   const Reference& reference, std::uint64_t stride,
-                                   const RunLimit& limit);
+                                   const Reference& reference, const RunLimit& limit);
 
 // Runs the setting again, without a look at the states, until enough time is measured or the limit
 // comes. Sets the row's cost and number of runs.

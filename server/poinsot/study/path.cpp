@@ -7,8 +7,6 @@
 namespace poinsot {
 namespace {
 
-constexpr std::uint64_t kMaxPoses = 2'000'000;  // of one path: some 120 MB
-
 PoseError distance_of(const Vec3& c1, const Quat& q1, const Vec3& c2, const Quat& q2) {
   return {(c1 - c2).norm(), angle_between(q1, q2)};
 }
@@ -23,6 +21,10 @@ void Path::keep(const PoseSnapshot& snapshot) {
 
 void Path::cut(std::size_t frames) {
   poses_.resize(std::min(frames, poses_.size()));
+}
+
+void Path::thin() {
+  thin_out(poses_);
 }
 
 PoseError Path::distance(std::size_t k, const PoseSnapshot& snapshot) const {
@@ -42,10 +44,6 @@ PoseError Path::last_distance(const Path& a, const Path& b) {
     error = largest(error, distance_of(x.c, x.q, y.c, y.q));
   }
   return error;
-}
-
-std::uint64_t stride_for(std::uint64_t frames, std::size_t bodies) {
-  return std::max<std::uint64_t>(1, (frames * bodies + kMaxPoses - 1) / kMaxPoses);
 }
 
 }  // namespace poinsot

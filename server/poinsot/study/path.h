@@ -1,8 +1,9 @@
-// Path: where the bodies of a run were, at every stride-th frame.
+// Path: where the bodies of a run were, at every so many frames.
 
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "poinsot/math/pose.h"
@@ -15,6 +16,7 @@ class Path {
  public:
   void keep(const PoseSnapshot& snapshot);  // frames in order
   void cut(std::size_t frames);             // to so many kept frames
+  void thin();                              // to every other kept frame, the first included
 
   std::size_t size() const { return poses_.size(); }  // kept frames
   // How far the snapshot is from kept frame k: the largest of all bodies.
@@ -26,8 +28,13 @@ class Path {
   std::vector<std::vector<Pose>> poses_;
 };
 
-// Frames between two that are kept, so that a path of so many frames and bodies stays below some
-// hundred megabytes. At least 1.
-std::uint64_t stride_for(std::uint64_t frames, std::size_t bodies);
+// Every other element, the first included.
+template <class Element>
+void thin_out(std::vector<Element>& elements) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < elements.size(); i += 2, ++kept)
+    if (i != kept) elements[kept] = std::move(elements[i]);
+  elements.resize(kept);
+}
 
 }  // namespace poinsot

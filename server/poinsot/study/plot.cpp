@@ -7,12 +7,15 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "poinsot/study/plot_labels.h"
+
 namespace poinsot {
 namespace {
 
 constexpr double kMicro = 1e-6;
-constexpr double kLowest = 1e-17;  // what a zero is drawn as
-constexpr double kHighest = 1e2;   // a run that flies apart must not flatten the others
+constexpr double kLowest = 1e-17;   // what a zero is drawn as
+constexpr double kHighest = 1e2;    // a run that flies apart must not flatten the others
+constexpr double kCheapest = 1e-6;  // [us/s] as a zero
 
 // Distinct for people who do not see all colours as well. Source: Okabe, Ito, Color Universal
 // Design.
@@ -20,26 +23,16 @@ constexpr std::array<std::string_view, 7> kColors = {"#D55E00", "#0072B2", "#009
                                                      "#E69F00", "#56B4E9", "#000000"};
 constexpr std::array kPointTypes = {7, 5, 9, 13, 11, 15, 3};
 
-struct Point {
-  double cost;   // [us/s]
-  double error;  // [m], [rad]
-  std::string label;
-};
-
-struct Curve {
-  std::string family;
-  std::vector<Point> points;
-};
-
-Point point_of(const Row& row, const ReferenceInfo& reference) {
-  return {row.cost.simulation / kMicro, std::max(known_error(row, reference).larger(), kLowest),
+PlotPoint point_of(const Row& row, const ReferenceInfo& reference) {
+  const double error = known_error(row, reference).larger();
+  return {std::max(row.cost.simulation / kMicro, kCheapest), std::clamp(error, kLowest, kHighest),
           row.setting.label};
 }
 
 std::vector<Curve> curves_of(const StudyResult& result) {
   std::vector<Curve> curves;
   for (const Row& row : result.rows) {
-    if (curves.empty() || curves.back().family != row.setting.family)
+    if (curves.empty() || curves.back().name != row.setting.family)
       curves.push_back({row.setting.family, {}});
     curves.back().points.push_back(point_of(row, result.reference));
   }
@@ -47,29 +40,37 @@ std::vector<Curve> curves_of(const StudyResult& result) {
 }
 
 // The front, from cheap to accurate.
-std::vector<Point> front_of(const StudyResult& result) {
-  std::vector<Point> front;
+std::vector<PlotPoint> front_of(const StudyResult& result) {
+  std::vector<PlotPoint> front;
   for (const Row& row : result.rows)
     if (row.pareto) front.push_back(point_of(row, result.reference));
   std::sort(front.begin(), front.end(),
-            [](const Point& a, const Point& b) { return a.cost < b.cost; });
+            [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
   return front;
 }
 
-std::string data_block(const std::string& name, const std::vector<Point>& points) {
+std::string data_block(const std::string& name, const std::vector<PlotPoint>& points) {
   std::string text = "$" + name + " << END\n";
-  for (const Point& p : points) text += fmt::format("{:.9g} {:.9g}\n", p.cost, p.error);
+  for (const PlotPoint& p : points) text += fmt::format("{:.9g} {:.9g}\n", p.x, p.y);
   return text + "END\n";
 }
 
-std::string label(std::string_view text, double x, double y, std::string_view color,
-                  std::string_view placing) {
+// Names stand above and right of their point, settings below and left: curves fall to the right.
+std::string label_line(const PlotLabel& label) {
   return fmt::format("set label '{}' at {:.9g},{:.9g} {} noenhanced textcolor rgb '{}' front\n",
-                     text, x, y, placing, color);
+                     label.text, label.x, label.y,
+                     label.is_name ? "left offset 0.7,0.5" : "right offset -0.7,-0.4 font ',10'",
+                     kColors[label.curve % kColors.size()]);
 }
 
-std::string frame(const StudyResult& result, double lowest, double highest) {
-  std::string text = fmt::format(
+std::string frame(const StudyResult& result, const std::vector<Curve>& curves) {
+  PlotPoint least = curves.front().points.front(), most = least;
+  for (const Curve& curve : curves)
+    for (const PlotPoint& p : curve.points) {
+      least = {std::min(least.x, p.x), std::min(least.y, p.y), {}};
+      most = {std::max(most.x, p.x), std::max(most.y, p.y), {}};
+    }
+  return fmt::format(
       "set terminal svg size 960,640 enhanced font 'sans,14' background '#ffffff'\n"
       "set title '{}: speed against error up to {:.6g} s' noenhanced\n"
       "set xlabel 'CPU time of simulation [µs per simulated second]'\n"
@@ -77,18 +78,15 @@ std::string frame(const StudyResult& result, double lowest, double highest) {
       "set logscale xy\nset format xy '10^{{%T}}'\n"
       "set grid xtics ytics linecolor rgb '#dddddd' linetype 1\n"
       "set key outside right top noenhanced spacing 1.3\n"
-      "set yrange [{:.3g}:{:.3g}]\nset offsets graph 0.08, graph 0.08, 0, 0\n",
-      result.scene, result.horizon_time(), lowest / 5, highest * 5);
-  return text;
+      "set xrange [{:.3g}:{:.3g}]\nset yrange [{:.3g}:{:.3g}]\n",
+      result.scene, result.horizon_time(), least.x / 2, most.x * 4, least.y / 5, most.y * 5);
 }
 
 std::string certificate_line(double certificate) {
   if (certificate < kLowest) return {};
   return fmt::format(
-      "set arrow from graph 0, first {0:.9g} to graph 1, first {0:.9g} nohead dashtype 2 "
-      "linecolor rgb '#555555'\n"
-      "set label 'certificate of the reference' at graph 0.01, first {0:.9g} offset 0,-0.7 "
-      "textcolor rgb '#555555' font ',11'\n",
+      ", {:.9g} with lines dashtype 2 linewidth 2 linecolor rgb '#555555' title "
+      "'certificate'",
       certificate);
 }
 
@@ -96,36 +94,21 @@ std::string certificate_line(double certificate) {
 
 std::string plot_script(const StudyResult& result) {
   const std::vector<Curve> curves = curves_of(result);
-  const std::vector<Point> front = front_of(result);
-  const double certificate = result.reference.certificate.larger();
-  double lowest = kHighest, highest = std::max(certificate, kLowest);
-  for (const Curve& curve : curves)
-    for (const Point& p : curve.points) {
-      lowest = std::min(lowest, p.error);
-      highest = std::max(highest, std::min(p.error, kHighest));
-    }
 
-  std::string text = frame(result, lowest, highest) + certificate_line(certificate);
+  std::string text = frame(result, curves);
+  for (const PlotLabel& label : place_labels(curves)) text += label_line(label);
+  text += data_block("front", front_of(result));
   std::string plot = "plot $front using 1:2 with lines linewidth 6 linecolor rgb '#e8e8e8' notitle";
-  text += data_block("front", front);
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const Curve& curve = curves[i];
     const std::string block = "curve" + std::to_string(i);
-    const std::string_view color = kColors[i % kColors.size()];
-    text += data_block(block, curve.points);
-    const Point& first = curve.points.front();
-    const Point& last = curve.points.back();
-    text += label(curve.family, first.cost, std::min(first.error, highest), color,
-                  "center offset 0,0.9");
-    if (curve.points.size() > 1)
-      text += label(last.label, last.cost, last.error, color, "left offset 0.8,0 font ',11'");
+    text += data_block(block, curves[i].points);
     plot += fmt::format(
         ", ${} using 1:2 with linespoints linewidth 2 pointtype {} pointsize 0.7 linecolor rgb "
         "'{}' "
         "title '{}'",
-        block, kPointTypes[i % kPointTypes.size()], color, curve.family);
+        block, kPointTypes[i % kPointTypes.size()], kColors[i % kColors.size()], curves[i].name);
   }
-  return text + plot +
+  return text + plot + certificate_line(result.reference.certificate.larger()) +
          ", $front using 1:2 with points pointtype 6 pointsize 1.6 linewidth 2 linecolor rgb "
          "'#000000' title 'Pareto front'\n";
 }

@@ -22,12 +22,9 @@ struct Candidate {
     path.keep(layer.snapshot());
   }
 
-  void advance(std::uint64_t frames) {
-    for (std::uint64_t n = 0; n < frames; ++n) {
-      layer.advance_frame();
-      used.see(layer.report());
-    }
-    path.keep(layer.snapshot());
+  void advance() {
+    layer.advance_frame();
+    used.see(layer.report());
   }
 
   std::string name;
@@ -57,9 +54,18 @@ class Comparison {
       for (std::size_t b = a + 1; b < candidates_.size(); ++b) pairs_.push_back({a, b});
   }
 
-  void advance(std::uint64_t frames) {
-    for (Candidate& candidate : candidates_) candidate.advance(frames);
+  void advance() {
+    for (Candidate& candidate : candidates_) candidate.advance();
+  }
+
+  void keep() {
+    for (Candidate& candidate : candidates_) candidate.path.keep(candidate.layer.snapshot());
     for (Pair& pair : pairs_) pair.apart.push_back(largest(pair.apart.back(), apart_now(pair)));
+  }
+
+  void thin() {
+    for (Candidate& candidate : candidates_) candidate.path.thin();
+    for (Pair& pair : pairs_) thin_out(pair.apart);
   }
 
   // Independent pairs go first; then the one that is least apart up to kept frame k.
@@ -72,6 +78,7 @@ class Comparison {
   bool independent(const Pair& pair) const {
     return !candidates_[pair.a].used.shares_one_with(candidates_[pair.b].used);
   }
+  std::size_t bodies() const { return candidates_.front().layer.snapshot().bodies.size(); }
   Candidate& candidate(std::size_t i) { return candidates_[i]; }
 
  private:
@@ -87,10 +94,10 @@ class Comparison {
   std::vector<Pair> pairs_;
 };
 
-std::optional<HorizonEnd> must_end(const ReferenceOptions& options, std::uint64_t frame,
+std::optional<HorizonEnd> must_end(const ReferenceOptions& options, std::size_t kept,
                                    const std::stop_token& stop) {
   if (stop.stop_requested()) return HorizonEnd::interrupted;
-  const bool late = frame > 0 && std::chrono::steady_clock::now() > options.deadline;
+  const bool late = kept > 0 && std::chrono::steady_clock::now() > options.deadline;
   return late ? std::optional(HorizonEnd::budget) : std::nullopt;
 }
 
@@ -115,21 +122,27 @@ Reference make_reference(const Scene& scene, const std::vector<Setting>& candida
   Reference reference;
   ReferenceInfo& info = reference.info;
   info.limit = options.limit;
-  std::size_t kept = 0;  // the last kept frame that is agreed on
-  while (reference.frames < options.frames) {
-    if (const auto end = must_end(options, reference.frames, stop)) {
+  std::size_t kept = 0;  // frames after the first that are agreed on
+  for (std::uint64_t frame = 1; frame <= options.frames; ++frame) {
+    if (const auto end = must_end(options, kept, stop)) {
       info.end = *end;
       break;
     }
-    const std::uint64_t step = std::min(options.stride, options.frames - reference.frames);
-    comparison.advance(step);
+    comparison.advance();
+    if (frame % reference.stride != 0 && frame != options.frames) continue;
+    comparison.keep();
     if (distance(comparison.best(kept + 1, info.limit).apart.back(), info.limit) > 1) {
       info.end = HorizonEnd::disagreement;
       break;
     }
     ++kept;
-    reference.frames += step;
-    options.progress(static_cast<double>(reference.frames) / static_cast<double>(options.frames));
+    reference.frames = frame;
+    if (kept % 2 == 0 && kept * comparison.bodies() > options.max_poses) {
+      comparison.thin();
+      kept /= 2;
+      reference.stride *= 2;
+    }
+    options.progress(static_cast<double>(frame) / static_cast<double>(options.frames));
   }
 
   const Pair& pair = comparison.best(kept, info.limit);

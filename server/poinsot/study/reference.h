@@ -20,13 +20,15 @@ struct Reference {
   Path path;
   std::vector<PoseError> certificate;  // up to each kept frame, frame 0 first
   std::uint64_t frames = 0;            // the horizon: the last kept frame
+  std::uint64_t stride = 1;            // frames from one kept frame to the next
   ReferenceInfo info;
 };
 
 struct ReferenceOptions {
-  std::uint64_t frames = 0;  // asked for
-  std::uint64_t stride = 1;  // frames from one comparison to the next
-  PoseError limit;           // of the disagreement
+  std::uint64_t frames = 0;             // asked for
+  std::uint64_t max_poses = 2'000'000;  // of a path, some 120 MB: where there are more, fewer
+                                        // frames are kept
+  PoseError limit;                      // of the disagreement
   std::chrono::steady_clock::time_point deadline;
   std::function<void(double)> progress = [](double) {};  // 0 … 1
 };

@@ -14,6 +14,10 @@
 namespace poinsot {
 namespace {
 
+// Of its share of the time: the settings that are dearer than the reference must fit as well, and a
+// median needs more than one run.
+constexpr double kReferencePart = 0.5;
+
 // The rows so far, by the place of their settings in the list.
 class Rows {
  public:
@@ -51,7 +55,7 @@ void measure_all(StudyResult& result, const Scene& scene, const std::vector<Sett
     const Setting& setting = settings[place];
     show(budget.shared_out(), setting.name());
     const RunLimit limit{budget.deadline(), stop};
-    std::optional<Measurement> measured = measure(scene, setting, reference, result.stride, limit);
+    std::optional<Measurement> measured = measure(scene, setting, reference, limit);
     if (stop.stop_requested()) break;
     if (!measured)
       result.skipped.push_back(setting);
@@ -86,13 +90,11 @@ StudyResult sweep(const Scene& scene, const SweepOptions& options, const ShowPro
   const double reference_part = static_cast<double>(candidates.size()) / runs;
   Budget budget(options.budget, candidates.size() + settings.size());
 
-  const std::uint64_t stride = stride_for(options.frames, bodies);
   const Reference reference =
       make_reference(scene, candidates,
                      {.frames = options.frames,
-                      .stride = stride,
                       .limit = agreement_limit(scene, options.wanted_error),
-                      .deadline = budget.deadline(candidates.size()),
+                      .deadline = budget.deadline(candidates.size(), kReferencePart),
                       .progress = [&](double done) { show(done * reference_part, "reference"); }},
                      stop);
 
@@ -101,7 +103,6 @@ StudyResult sweep(const Scene& scene, const SweepOptions& options, const ShowPro
                      .frame_rate = scene.presentation.frame_rate,
                      .asked = options.frames,
                      .horizon = reference.frames,
-                     .stride = stride,
                      .reference = reference.info};
   if (reference.frames > 0) measure_all(result, scene, settings, reference, budget, show, stop);
   result.interrupted = stop.stop_requested();

@@ -1,6 +1,7 @@
 #include "poinsot/study/table.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -12,10 +13,18 @@ namespace {
 constexpr std::size_t kColumns = 100;
 constexpr double kMicro = 1e-6;
 
+// One digit, rounded up: it is a bound.
+std::string bound_text(double bound) {
+  if (!(bound > 0)) return "0";
+  constexpr double kRounding = 1e-9;
+  const double power = std::pow(10, std::floor(std::log10(bound)));
+  return fmt::format("{:.1g}", std::ceil(bound / power * (1 - kRounding)) * power);
+}
+
 // What is below the certificate is known to be at most that.
 std::string error_text(double measured, double certificate) {
-  return measured > certificate ? fmt::format("{:.2g}", measured)
-                                : fmt::format("≤ {:.1g}", certificate);
+  return measured > certificate || certificate == 0 ? fmt::format("{:.2g}", measured)
+                                                    : "≤ " + bound_text(certificate);
 }
 
 std::string cost_text(double cost) {
@@ -116,9 +125,9 @@ std::string reference_text(const StudyResult& result) {
         "No reference exists: {} and {} part by more than {:.1g} m or {:.1g} rad\nwithin the first "
         "frame.\n",
         r.name, r.check, r.limit.position, r.limit.orientation);
-  std::string text =
-      fmt::format("Reference: {}, certified by {}: they agree to {:.1g} m and {:.1g} rad.\n",
-                  r.name, r.check, r.certificate.position, r.certificate.orientation);
+  std::string text = fmt::format("Reference: {}, certified by {}: they agree to {} m and {} rad.\n",
+                                 r.name, r.check, bound_text(r.certificate.position),
+                                 bound_text(r.certificate.orientation));
   if (!r.independent)
     text += "The two share a method that moves bodies, so that their agreement proves less.\n";
   return text + horizon_text(result);
