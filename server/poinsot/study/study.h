@@ -82,7 +82,7 @@ struct StudyResult {
   std::uint64_t stride = 1;   // every so many frames are compared
   ReferenceInfo reference;
   std::vector<Row> rows = {};         // in the order of the families
-  std::vector<Setting> skipped = {};  // the budget did not allow them
+  std::vector<Setting> skipped = {};  // the budget did not allow them; likewise
   bool interrupted = false;           // not all was tried
   double horizon_time() const { return static_cast<double>(horizon) / frame_rate; }  // [s]
 };

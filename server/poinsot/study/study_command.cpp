@@ -38,6 +38,10 @@ class OutputFile {
   void write(const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), get()) != text.size()) fail();
   }
+  void discard() {
+    file_.reset();
+    if (!path_.empty()) std::remove(path_.c_str());
+  }
   void close() {
     if (file_ && std::fclose(file_.release()) != 0) fail();
   }
@@ -114,7 +118,10 @@ void run_study(const Scene& scene, const StudyOptions& options, StopSignals& sig
   out << std::flush;
   if (csv) csv.write(to_csv(result));
   csv.close();
-  if (svg && !result.rows.empty()) run_gnuplot(plot_script(result), svg.get());
+  if (result.rows.empty())
+    svg.discard();  // there is nothing to draw
+  else if (svg)
+    run_gnuplot(plot_script(result), svg.get());
   svg.close();
   if (result.horizon == 0 && !result.interrupted) throw std::runtime_error(reference_text(result));
 }

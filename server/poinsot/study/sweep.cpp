@@ -51,6 +51,7 @@ void measure_all(StudyResult& result, const Scene& scene, const std::vector<Sett
                  const Reference& reference, Budget& budget, const ShowProgress& show,
                  const std::stop_token& stop) {
   Rows rows;
+  std::vector<std::size_t> skipped;
   for (const std::size_t place : running_order(settings)) {
     const Setting& setting = settings[place];
     show(budget.shared_out(), setting.name());
@@ -58,11 +59,13 @@ void measure_all(StudyResult& result, const Scene& scene, const std::vector<Sett
     std::optional<Measurement> measured = measure(scene, setting, reference, limit);
     if (stop.stop_requested()) break;
     if (!measured)
-      result.skipped.push_back(setting);
+      skipped.push_back(place);
     else if (Row* row = rows.add(place, *std::move(measured)))
       measure_cost(*row, scene, reference.frames, limit);
   }
   result.rows = rows.take();
+  std::sort(skipped.begin(), skipped.end());
+  for (const std::size_t place : skipped) result.skipped.push_back(settings[place]);
 }
 
 std::uint32_t moving_bodies(const Scene& scene) {

@@ -67,11 +67,13 @@ TEST(StudyCommand, EndsWhenAskedToAndSaysSo) {
   StudyOptions options = short_study();
   options.frames = 100'000'000;
   options.budget = std::chrono::hours(1);
+  options.svg = test::temp_path("nothing.svg");
   StopSignals signals;
   signals.request_stop();
   std::ostringstream out;
   run_study(tumbling(), options, signals, out);
   EXPECT_NE(out.str().find("Interrupted"), std::string::npos) << out.str();
+  EXPECT_FALSE(std::filesystem::exists(options.svg)) << "there was nothing to draw";
 }
 
 TEST(Gnuplot, ThatIsMissingIsAnErrorThatNamesThePackage) {
