@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <future>
 #include <memory>
 #include <ostream>
@@ -40,7 +41,8 @@ class OutputFile {
   }
   void discard() {
     file_.reset();
-    if (!path_.empty()) std::remove(path_.c_str());
+    if (std::filesystem::is_regular_file(std::filesystem::symlink_status(path_)))
+      std::filesystem::remove(path_);  // not /dev/stdout and the like
   }
   void close() {
     if (file_ && std::fclose(file_.release()) != 0) fail();
