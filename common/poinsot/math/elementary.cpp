@@ -55,4 +55,50 @@ SinCos sin_cos(double x) {
   return {-c, s};
 }
 
+namespace {
+
+// eʳ − 1 = r (1 + r/2 (1 + r/3 (…))) up to degree `N`; |r| ≤ ln 2 / 2.
+template <int N, class Real>
+Real exp_series(Real r) {
+  Real sum = 1;
+  for (int n = N; n >= 2; --n) sum = 1 + r * sum * (Real(1) / Real(n));
+  return 1 + r * sum;
+}
+
+}  // namespace
+
+double exponential(double x) {
+  // ln 2 = kHigh + kLow; n·kHigh is exact.
+  constexpr double kHigh = 6.93147180369123816490e-01, kLow = 1.90821492927058770002e-10;
+  const double n = std::nearbyint(x * 1.44269504088896338700e+00);
+  const double r = (x - n * kHigh) - n * kLow;
+  return std::ldexp(exp_series<13>(r), static_cast<int>(n));
+}
+
+double logarithm(double x) {
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);  // ½ … 1
+  if (m < 0.70710678118654752) {
+    m *= 2;
+    --exponent;
+  }
+  // ln m = 2 artanh s, |s| < 0.172
+  const double s = (m - 1) / (m + 1), z = s * s;
+  double sum = 0;
+  for (int n = 21; n >= 3; n -= 2) sum = z * (1.0 / n + sum);
+  constexpr double kHigh = 6.93147180369123816490e-01, kLow = 1.90821492927058770002e-10;
+  return exponent * kHigh + (2 * s + (2 * s * sum + exponent * kLow));
+}
+
+double power(double x, double y) {
+  return exponential(y * logarithm(x));
+}
+
+long double exponential(long double x) {
+  constexpr long double kHigh = 6.93147180369123816490e-01L, kLow = 1.90821492927058781614e-10L;
+  const long double n = std::nearbyint(x * 1.442695040888963407359924681L);
+  const long double r = (x - n * kHigh) - n * kLow;
+  return std::ldexp(exp_series<18>(r), static_cast<int>(n));
+}
+
 }  // namespace poinsot

@@ -66,6 +66,7 @@ CollisionLayer& CollisionLayer::operator=(CollisionLayer&&) noexcept = default;
 
 void CollisionLayer::advance_to(double t_end) {
   const FrameTimes frame_times(times_);
+  simulation_.start_frame();
   const double t_start = time();
   const int steps = step_count(t_end - t_start, longest_step_);
   for (int k = 1; k < steps; ++k) advance_substep(t_start + k * ((t_end - t_start) / steps));
@@ -107,9 +108,7 @@ void CollisionLayer::rebase_energy() {
 }
 
 double CollisionLayer::expected_energy() const {
-  const WorkMeter& work = simulation_.work();
-  return start_energy_ + work.held() + work.contact() - report_.impact_loss +
-         report_.push_out_energy;
+  return start_energy_ + simulation_.work() - report_.impact_loss + report_.push_out_energy;
 }
 
 double CollisionLayer::energy() const {
@@ -125,6 +124,7 @@ double CollisionLayer::energy_error() {
 
 void CollisionLayer::hash_into(Hash64& hash) const {
   contacts_->set.hash_into(hash);
+  simulation_.hash_into(hash);
 }
 
 }  // namespace poinsot

@@ -160,7 +160,7 @@ void ContactResolution::resolve_contacts(SimulationLayer& simulation, ContactSet
   for (Eigen::Index i = 0; i < world.size(); ++i) {
     if (!world.moves(i)) continue;
     ContactBody& body = bodies_[static_cast<std::size_t>(i)];
-    const Wrench w = acting_wrench({world, wrenches}, i, rotation(world, i));
+    const Wrench w = acting_wrench(world, i);
     body.v += (h * body.inv_mass) * w.force;
     body.omega += h * (body.inv_J_W * w.torque);
   }

@@ -22,10 +22,10 @@ double potential_energy(const World& world) {
   for (Eigen::Index i = 0; i < world.size(); ++i)
     if (world.moves(i))
       sum -= world.mass[static_cast<std::size_t>(i)] * world.gravity.dot(position(world.y, i));
-  return sum;
+  return sum + spring_energy(world);
 }
 
-EnergyScale::EnergyScale(const World& world) {
+EnergyScale::EnergyScale(const World& world) : potential_(spring_energy(world)) {
   const double g = world.gravity.norm();
   if (g > 0) {
     const Vec3 up = -world.gravity / g;

@@ -1,4 +1,4 @@
-// Energy of a world and its scale. The work of wrenches is in work_meter.h.
+// Energy of a world and its scale. The work of wrenches is in simulation_layer.h.
 // README.md, section "Energy", defines the balance.
 
 #pragma once
@@ -8,10 +8,11 @@
 namespace poinsot {
 
 double kinetic_energy(const World& world);    // [J] ½ P²/m + ½ ω·L over the bodies that move
-double potential_energy(const World& world);  // [J] −m g·c over the bodies that move
+double potential_energy(const World& world);  // [J] −m g·c over the bodies that move, and springs
 
 // Scale for the relative energy error [J]: Σ m |g| (height above the lowest body + radius of
-// gyration) at the start, plus the largest kinetic energy seen.
+// gyration) at the start, plus the largest kinetic energy seen and the springs' energy at the
+// start.
 class EnergyScale {
  public:
   explicit EnergyScale(const World& world);

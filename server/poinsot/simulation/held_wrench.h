@@ -26,11 +26,17 @@ struct HeldWrench {
            in_B.torque.isZero(0) && moment.isZero(0);
   }
 
+  // The part that depends on the orientation R (B → W) and is linear in it, about c in W.
+  Wrench turning(const Mat3& R) const {
+    const Mat3 m = R * moment;
+    return {R * in_B.force,
+            R * in_B.torque + Vec3(m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0))};
+  }
+
   // The wrench about c in W at orientation R (B → W).
   Wrench at(const Mat3& R) const {
-    Wrench w{in_W.force + R * in_B.force, in_W.torque + R * in_B.torque};
-    const Mat3 m = R * moment;
-    w.torque += Vec3(m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0));
+    Wrench w = turning(R);
+    w += in_W;
     return w;
   }
 };

@@ -21,6 +21,7 @@ World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
     inv_mass.push_back(body.is_static ? 0.0 : 1.0 / m.mass);
     J_B.push_back(body.is_static ? Mat3(Mat3::Zero()) : m.J);
     inv_J_B.push_back(body.is_static ? Mat3(Mat3::Zero()) : Mat3(m.J.inverse()));
+    principal_axes.push_back(body.is_static ? PrincipalAxes{} : poinsot::principal_axes(m.J));
 
     position(y, i) = body.pose * m.center_of_mass;
     orientation(y, i) = body.pose.q;
@@ -28,6 +29,16 @@ World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
     const Mat3 R = body.pose.q.toRotationMatrix();
     angular_momentum(y, i) = R * (J_B[k] * (R.transpose() * body.angular_velocity));
   }
+  const auto dragged = [](const BodyDef& body) {
+    return body.drag.linear > 0 || body.drag.quadratic > 0 || body.drag.angular > 0;
+  };
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), dragged))
+    for (const BodyDef& body : scene.bodies) drag.push_back(body.drag);
+  systems = make_systems(scene, *this);
+  if (!systems.empty()) system_of.assign(n, kLone);
+  for (std::size_t s = 0; s < systems.size(); ++s)
+    for (const Eigen::Index i : systems[s].columns)
+      system_of[static_cast<std::size_t>(i)] = static_cast<int>(s);
 }
 
 std::optional<Eigen::Index> World::find(BodyId id) const {
@@ -73,6 +84,57 @@ Vec3 angular_velocity(const World& world, Eigen::Index i) {
 Pose body_pose(const World& world, Eigen::Index i) {
   const Quat q = orientation(world.y, i);
   return {position(world.y, i) - q * world.center_of_mass[static_cast<std::size_t>(i)], q};
+}
+
+namespace {
+
+// A point of a body, or of W, and its velocity.
+struct SpringEnd {
+  Vec3 x = Vec3::Zero(), v = Vec3::Zero(), arm = Vec3::Zero();
+};
+
+SpringEnd spring_end(const World& world, const BodySystem& system, int index, const Vec3& p) {
+  if (index == SpringLink::kWorld) return {p, Vec3::Zero(), Vec3::Zero()};
+  const Eigen::Index i = system.columns[static_cast<std::size_t>(index)];
+  const Vec3 arm = orientation(world.y, i) * p;
+  return {position(world.y, i) + arm,
+          linear_velocity(world, i) + angular_velocity(world, i).cross(arm), arm};
+}
+
+}  // namespace
+
+Wrench acting_wrench(const World& world, Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  Wrench w{world.mass[k] * world.gravity, Vec3::Zero()};
+  if (!world.held[k].is_zero()) w += world.held[k].at(rotation(world, i));
+  if (!world.drag.empty()) {
+    w.force += drag_force(world.drag[k], linear_velocity(world, i));
+    if (world.drag[k].angular > 0) w.torque -= world.drag[k].angular * angular_velocity(world, i);
+  }
+  if (world.systems.empty() || world.system_of[k] == World::kLone) return w;
+  const BodySystem& system = world.systems[static_cast<std::size_t>(world.system_of[k])];
+  for (const SpringLink& spring : system.springs) {
+    const auto is_here = [&](int index) {
+      return index != SpringLink::kWorld && system.columns[static_cast<std::size_t>(index)] == i;
+    };
+    if (!is_here(spring.a) && !is_here(spring.b)) continue;
+    const SpringEnd a = spring_end(world, system, spring.a, spring.p_a);
+    const SpringEnd b = spring_end(world, system, spring.b, spring.p_b);
+    const SpringForce f = spring_force(spring, a.x, b.x, a.v, b.v);
+    const Vec3 force = f.elastic + f.damping;
+    w += is_here(spring.a) ? Wrench{force, a.arm.cross(force)}
+                           : Wrench{-force, b.arm.cross(Vec3(-force))};
+  }
+  return w;
+}
+
+double spring_energy(const World& world) {
+  double sum = 0;
+  for (const BodySystem& system : world.systems)
+    for (const SpringLink& spring : system.springs)
+      sum += spring_energy(spring, spring_end(world, system, spring.a, spring.p_a).x,
+                           spring_end(world, system, spring.b, spring.p_b).x);
+  return sum;
 }
 
 }  // namespace poinsot

@@ -12,8 +12,10 @@
 
 #include "poinsot/base/body_id.h"
 #include "poinsot/math/pose.h"
+#include "poinsot/math/principal_axes.h"
 #include "poinsot/scene/scene.h"
 #include "poinsot/simulation/held_wrench.h"
+#include "poinsot/simulation/springs.h"
 #include "poinsot/simulation/state.h"
 
 namespace poinsot {
@@ -53,6 +55,12 @@ struct World {
   std::vector<Mat3> J_B;             // [kg·m²] about the centre of mass, in B
   std::vector<Mat3> inv_J_B;         // [1/(kg·m²)] 0 for bodies that do not move
 
+  std::vector<PrincipalAxes> principal_axes;
+  std::vector<DragDef> drag;        // empty: no body has any
+  std::vector<BodySystem> systems;  // bodies with springs; empty: the scene has none
+  std::vector<int> system_of;       // index into systems, kLone; empty as systems
+  static constexpr int kLone = -1;
+
   // Inputs of the frame.
   std::vector<HeldWrench> held;
 };
@@ -63,5 +71,11 @@ Mat3 inv_J_W(const World& world, Eigen::Index i);           // R J⁻¹ Rᵀ
 Vec3 linear_velocity(const World& world, Eigen::Index i);   // [m/s] of the centre of mass
 Vec3 angular_velocity(const World& world, Eigen::Index i);  // [rad/s] in W
 Pose body_pose(const World& world, Eigen::Index i);         // of B in W
+
+// What acts on body i now, about c, in W: gravity, held wrench, drag and springs [N, N·m].
+Wrench acting_wrench(const World& world, Eigen::Index i);
+
+// Elastic energy of the springs [J].
+double spring_energy(const World& world);
 
 }  // namespace poinsot

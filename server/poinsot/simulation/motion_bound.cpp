@@ -1,0 +1,91 @@
+#include "poinsot/simulation/motion_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace poinsot {
+namespace {
+
+// Rounding of the few operations below, with room.
+constexpr double kRounding = 1 + 1e-13;
+
+// Principal frame rows: x_P = Aᵀ x_B.
+Mat3 principal_rotation(const PrincipalAxes& body) {
+  Mat3 A;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      A(static_cast<int>(i), static_cast<int>(k)) = static_cast<double>(body.axes[i][k]);
+  return A;
+}
+
+}  // namespace
+
+double RotationBound::turn_rate(const Vec3& n) const {
+  const double sine = std::min(1.0, n.cross(axis).norm() * kRounding);
+  return std::min(omega, along * sine + perp) * kRounding;
+}
+
+RotationBound rotation_bound(const PrincipalAxes& body, const Mat3& R, const Vec3& L) {
+  RotationBound bound;
+  const double G = L.stableNorm();
+  if (G == 0) return bound;
+  const Vec3 m = principal_rotation(body).transpose() * (R.transpose() * (L / G));  // in units of G
+  const Vec3 I(static_cast<double>(body.moments[0]), static_cast<double>(body.moments[1]),
+               static_cast<double>(body.moments[2]));
+  const Vec3 square = m.cwiseAbs2();
+  // |aᵢ| of mᵢ′ = aᵢ mⱼ mₖ, from differences of moments.
+  const Vec3 a((I[2] - I[1]) / (I[1] * I[2]), (I[2] - I[0]) / (I[2] * I[0]),
+               (I[1] - I[0]) / (I[0] * I[1]));
+  // Along the polhode a₂ m₁² + a₁ m₂² and a₂ m₃² + a₃ m₂² keep their values; the largest of each
+  // square lies where another is zero, or smallest.
+  Vec3 largest = square;
+  if (a[1] > 0) {
+    const double first = square[0] + a[0] / a[1] * square[1];  // m₁² where m₂ = 0
+    const double third = square[2] + a[2] / a[1] * square[1];  // m₃² where m₂ = 0
+    double second = 1;
+    if (a[0] > 0) second = std::min(second, first * a[1] / a[0]);
+    if (a[2] > 0) second = std::min(second, third * a[1] / a[2]);
+    largest = Vec3(first, std::max(second, square[1]), third);
+  }
+  const Vec3 M = (largest.cwiseSqrt() * kRounding).cwiseMin(1.0);
+  const Vec3 inverse = I.cwiseInverse();
+  const double energy = square.dot(inverse);  // 2T/G²
+  // |ω|² = Σ mᵢ²/Iᵢ² is linear in m₂² along the polhode: largest at m₂ = 0 or at the largest m₂.
+  const double now = square.cwiseProduct(inverse.cwiseAbs2()).sum();
+  double slope = 0;  // d|ω|²/d(m₂²)
+  if (a[1] > 0)
+    slope = inverse[1] * inverse[1] - a[0] / a[1] * inverse[0] * inverse[0] -
+            a[2] / a[1] * inverse[2] * inverse[2];
+  const double at_zero = now - slope * square[1];
+  const double at_most = now + slope * (M[1] * M[1] - square[1]);
+  bound.omega = G * std::sqrt(std::max({now, at_zero, at_most})) * kRounding;
+  const Vec3 alpha(inverse[0] * a[0] * M[1] * M[2], inverse[1] * a[1] * M[2] * M[0],
+                   inverse[2] * a[2] * M[0] * M[1]);
+  bound.alpha = G * alpha.norm() * G * kRounding;
+  bound.along = G * energy;
+  const double perp_squared = bound.omega * bound.omega - bound.along * bound.along;
+  // The difference of two close squares: its rounding is added, not hoped away.
+  bound.perp = std::sqrt(std::max(0.0, perp_squared) + 1e-14 * bound.omega * bound.omega);
+  bound.axis = L / G;
+  return bound;
+}
+
+double reach(const World& world, Eigen::Index i, const RotationBound& bound, double r, double h) {
+  const double straight = h * (linear_velocity(world, i).norm() + 0.5 * h * world.gravity.norm());
+  return (straight + std::min(2.0, bound.omega * h) * r) * kRounding;
+}
+
+double reach_along(const World& world, Eigen::Index i, const RotationBound& bound, const Vec3& n,
+                   double r, double h) {
+  const double centre = h * n.dot(linear_velocity(world, i) + (0.5 * h) * world.gravity);
+  const double slack = 1e-15 * h * (linear_velocity(world, i).norm() + h * world.gravity.norm());
+  return centre + slack + std::min(2.0, bound.turn_rate(n) * h) * r * kRounding;
+}
+
+SpeedBound speed_bound(const World& world, Eigen::Index i, double s) {
+  const auto k = static_cast<std::size_t>(i);
+  const double smallest = static_cast<double>(world.principal_axes[k].moments[0]);
+  return {s / std::sqrt(world.mass[k]) * kRounding, s / std::sqrt(smallest) * kRounding};
+}
+
+}  // namespace poinsot

@@ -1,0 +1,59 @@
+// Motion bounds: how fast and how far any point of a body can move. Rigorous: never smaller than
+// what the body does, whatever the time.
+//
+// Free rotation (rotation_bound), closed form from the polhode, for all times:
+//   omega   |ω| ≤     its square is linear in sn² u, so one end of the polhode has the largest
+//   alpha   |α| ≤     from |mᵢ| ≤ Mᵢ in each of Euler's equations
+//   along   ω·L̂       constant, 2T/|L|
+//   perp    |ω − along L̂| ≤ sqrt(omega² − along²)
+//
+// For a direction n fixed in W and n_B = Rᵀ n:
+//   |n_B′| ≤ W(n) = along sin(L̂, n) + perp        |n_B″| ≤ W(n) omega + alpha
+// so the gap to a plane, seen by a support function h of n_B, obeys for x ≥ 0
+//   h(n_B(t + x)) ≤ h(n_B + x n_B′) + ½ r x² (W omega + alpha),
+// which is what a second-order conservative advancement needs.
+//
+// Driven bodies (speed_bound): with S = sqrt(2 (T + U)) of bodies coupled by springs,
+//   S(t + h) ≤ S(t) + h sqrt(Σ |F|²/m + |τ|²/J₁),   |v| ≤ S/√m,   |ω| ≤ S/√J₁;
+// drag and damping only lower S. Source: README.md, section "Bounds".
+
+#pragma once
+
+#include "poinsot/math/principal_axes.h"
+#include "poinsot/simulation/world.h"
+
+namespace poinsot {
+
+struct RotationBound {
+  double omega = 0;           // [rad/s]
+  double alpha = 0;           // [rad/s²]
+  double along = 0;           // [rad/s]
+  double perp = 0;            // [rad/s]
+  Vec3 axis = Vec3::UnitZ();  // L̂ in W
+
+  double turn_rate(const Vec3& n) const;           // W(n) [rad/s]; n unit, in W
+  double turn_acceleration(const Vec3& n) const {  // of n_B [rad/s²]
+    return turn_rate(n) * omega + alpha;
+  }
+};
+
+// Of a body that rotates freely with angular momentum L [kg·m²/s] in W at orientation R (B → W).
+RotationBound rotation_bound(const PrincipalAxes& body, const Mat3& R, const Vec3& L);
+
+// Largest distance [m] that a point within r of the centre of mass covers in h [s] of free flight.
+double reach(const World& world, Eigen::Index i, const RotationBound& bound, double r, double h);
+
+// The same along a unit direction n in W: upper bound of n·(x(t + h) − x(t)) [m].
+double reach_along(const World& world, Eigen::Index i, const RotationBound& bound, const Vec3& n,
+                   double r, double h);
+
+// Largest speeds of a body.
+struct SpeedBound {
+  double v = 0;      // [m/s] of the centre of mass
+  double omega = 0;  // [rad/s]
+};
+
+// What a body can reach with S [√J] as above.
+SpeedBound speed_bound(const World& world, Eigen::Index i, double s);
+
+}  // namespace poinsot

@@ -1,0 +1,127 @@
+#include "poinsot/simulation/springs.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "poinsot/base/check.h"
+#include "poinsot/simulation/world.h"
+
+namespace poinsot {
+namespace {
+
+// Groups of columns joined by springs, by union and find.
+class Joined {
+ public:
+  explicit Joined(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::size_t root(std::size_t i) const {
+    while (parent_[i] != i) i = parent_[i];
+    return i;
+  }
+  // The smaller column becomes the root, so that systems are in column order.
+  void join(std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+struct WorldSpring {
+  Eigen::Index a;
+  Eigen::Index b;   // -1: the world
+  SpringLink link;  // indices still to be set
+};
+
+Eigen::Index column(const World& world, const std::string& name) {
+  const auto found = world.find(name);
+  POINSOT_CHECK(found.has_value());  // validate() has looked
+  return *found;
+}
+
+// Ends at bodies that do not move become points of W; the first end always moves.
+std::vector<WorldSpring> resolve(const Scene& scene, const World& world) {
+  std::vector<WorldSpring> springs;
+  for (const SpringDef& def : scene.springs) {
+    const Eigen::Index a = column(world, def.a);
+    const Eigen::Index b = def.b.empty() ? -1 : column(world, def.b);
+    const auto from_center = [&](Eigen::Index i, const Vec3& p) {
+      return Vec3(p - world.center_of_mass[static_cast<std::size_t>(i)]);
+    };
+    const auto in_W = [&](Eigen::Index i, const Vec3& p) { return Vec3(body_pose(world, i) * p); };
+    const Vec3 at_a = in_W(a, def.point_a);
+    const Vec3 at_b = b >= 0 ? in_W(b, def.point_b) : def.point_b;
+    SpringLink link{0,
+                    SpringLink::kWorld,
+                    from_center(a, def.point_a),
+                    at_b,
+                    def.stiffness,
+                    def.damping,
+                    def.rest_length.value_or((at_a - at_b).norm())};
+    const bool b_moves = b >= 0 && world.moves(b);
+    if (world.moves(a)) {
+      if (b_moves) link.p_b = from_center(b, def.point_b);
+      springs.push_back({a, b_moves ? b : -1, link});
+    } else if (b_moves) {
+      link.p_a = from_center(b, def.point_b);
+      link.p_b = at_a;
+      springs.push_back({b, -1, link});
+    }
+  }
+  return springs;
+}
+
+}  // namespace
+
+std::vector<BodySystem> make_systems(const Scene& scene, const World& world) {
+  std::vector<BodySystem> systems;
+  if (scene.springs.empty()) return systems;
+  const std::vector<WorldSpring> springs = resolve(scene, world);
+  const auto n = static_cast<std::size_t>(world.size());
+  Joined joined(n);
+  std::vector<bool> sprung(n, false);
+  for (const WorldSpring& spring : springs) {
+    sprung[static_cast<std::size_t>(spring.a)] = true;
+    if (spring.b < 0) continue;
+    sprung[static_cast<std::size_t>(spring.b)] = true;
+    joined.join(static_cast<std::size_t>(spring.a), static_cast<std::size_t>(spring.b));
+  }
+  std::vector<std::size_t> system_of(n, 0);
+  std::vector<int> place(n, SpringLink::kWorld);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!sprung[i]) continue;
+    const std::size_t root = joined.root(i);
+    if (root == i) {
+      system_of[i] = systems.size();
+      systems.emplace_back();
+    }
+    BodySystem& system = systems[system_of[root]];
+    place[i] = static_cast<int>(system.columns.size());
+    system.columns.push_back(static_cast<Eigen::Index>(i));
+  }
+  for (const WorldSpring& spring : springs) {
+    SpringLink link = spring.link;
+    link.a = place[static_cast<std::size_t>(spring.a)];
+    if (spring.b >= 0) link.b = place[static_cast<std::size_t>(spring.b)];
+    systems[system_of[joined.root(static_cast<std::size_t>(spring.a))]].springs.push_back(link);
+  }
+  return systems;
+}
+
+SpringForce spring_force(const SpringLink& spring, const Vec3& x_a, const Vec3& x_b,
+                         const Vec3& v_a, const Vec3& v_b) {
+  const Vec3 d = x_a - x_b;
+  if (spring.is_linear()) return {-spring.stiffness * d, Vec3::Zero()};
+  const double r = d.norm();
+  const Vec3 along = d / r;
+  return {-spring.stiffness * (r - spring.rest) * along,
+          -spring.damping * (v_a - v_b).dot(along) * along};
+}
+
+double spring_energy(const SpringLink& spring, const Vec3& x_a, const Vec3& x_b) {
+  const double stretch = (x_a - x_b).norm() - spring.rest;
+  return 0.5 * spring.stiffness * stretch * stretch;
+}
+
+}  // namespace poinsot

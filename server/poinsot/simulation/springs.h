@@ -1,0 +1,51 @@
+// Springs and drag: their force laws, and the systems of bodies that springs join.
+
+#pragma once
+
+#include <vector>
+
+#include "poinsot/scene/scene.h"
+
+namespace poinsot {
+
+struct World;
+
+// A spring between point p_a of body a and p_b of body b, or of W; indices into a system.
+struct SpringLink {
+  int a;
+  int b;             // kWorld: p_b is in W
+  Vec3 p_a, p_b;     // [m] from the centre of mass, in B; or in W
+  double stiffness;  // [N/m]
+  double damping;    // [N·s/m]
+  double rest;       // [m]
+
+  static constexpr int kWorld = -1;
+  bool is_linear() const { return rest == 0 && damping == 0; }
+};
+
+struct BodySystem {
+  std::vector<Eigen::Index> columns;  // of the world
+  std::vector<SpringLink> springs;
+};
+
+// The systems of more than a lone body without springs, each in column order; empty if the scene
+// has no springs. Springs between two bodies that do not move are left out.
+std::vector<BodySystem> make_systems(const Scene& scene, const World& world);
+
+// The force of a spring on its point of a, in W [N], from the points and their velocities.
+struct SpringForce {
+  Vec3 elastic, damping;
+};
+SpringForce spring_force(const SpringLink& spring, const Vec3& x_a, const Vec3& x_b,
+                         const Vec3& v_a, const Vec3& v_b);
+
+// ½ k (d − rest)² [J].
+double spring_energy(const SpringLink& spring, const Vec3& x_a, const Vec3& x_b);
+
+// What drag exerts at velocity v [m/s] in W [N].
+inline Vec3 drag_force(const DragDef& drag, const Vec3& v) {
+  const double quadratic = drag.quadratic > 0 ? drag.quadratic * v.norm() : 0;
+  return -(drag.linear + quadratic) * v;
+}
+
+}  // namespace poinsot
