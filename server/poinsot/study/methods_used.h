@@ -22,6 +22,9 @@ class MethodsUsed {
     return false;
   }
 
+  // Closed form throughout: no steps, and no rounding that adds up over them.
+  bool only_flight() const { return list() == std::vector{Method::flight}; }
+
   std::vector<Method> list() const {  // without Method::none
     std::vector<Method> methods;
     for (const Named<Method>& row : kMethodNames)

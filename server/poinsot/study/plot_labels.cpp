@@ -30,7 +30,8 @@ class Placing {
       for (const PlotPoint& p : curves_[i].points)
         if (i != curve) least = std::min(least, distance(at, p.x, p.y));
     for (const PlotLabel& label : labels_)
-      if (label.curve != curve) least = std::min(least, distance(at, label.x, label.y));
+      if (label.curve != curve || !label.is_name)
+        least = std::min(least, distance(at, label.x, label.y));
     return least;
   }
 

@@ -33,25 +33,24 @@ struct Candidate {
   Path path;
 };
 
-// Two candidates and how far they were apart, up to each kept frame.
-struct Pair {
-  std::size_t a, b;
-  std::vector<PoseError> apart = {{}};
-};
-
 // Relative to the limit; NaN counts as infinitely far.
 double distance(const PoseError& error, const PoseError& limit) {
   const double x = std::max(error.position / limit.position, error.orientation / limit.orientation);
   return std::isfinite(x) ? x : INFINITY;
 }
 
+// One candidate and those that certify it.
+struct Verdict {
+  std::size_t reference = 0;
+  std::vector<std::size_t> witnesses;
+};
+
 class Comparison {
  public:
-  Comparison(const Scene& scene, const std::vector<Setting>& settings) {
+  Comparison(const Scene& scene, const std::vector<Setting>& settings, const PoseError& limit)
+      : limit_(limit), apart_(settings.size() * settings.size(), std::vector<PoseError>(1)) {
     candidates_.reserve(settings.size());
     for (const Setting& setting : settings) candidates_.emplace_back(scene, setting);
-    for (std::size_t a = 0; a < candidates_.size(); ++a)
-      for (std::size_t b = a + 1; b < candidates_.size(); ++b) pairs_.push_back({a, b});
   }
 
   void advance() {
@@ -60,38 +59,93 @@ class Comparison {
 
   void keep() {
     for (Candidate& candidate : candidates_) candidate.path.keep(candidate.layer.snapshot());
-    for (Pair& pair : pairs_) pair.apart.push_back(largest(pair.apart.back(), apart_now(pair)));
+    for (std::size_t a = 0; a < size(); ++a)
+      for (std::size_t b = 0; b < size(); ++b)
+        apart(a, b).push_back(largest(apart(a, b).back(), apart_now(a, b)));
   }
 
   void thin() {
     for (Candidate& candidate : candidates_) candidate.path.thin();
-    for (Pair& pair : pairs_) thin_out(pair.apart);
+    for (auto& history : apart_) thin_out(history);
   }
 
-  // Independent pairs go first; then the one that is least apart up to kept frame k.
-  const Pair& best(std::size_t k, const PoseError& limit) const {
-    return *std::min_element(pairs_.begin(), pairs_.end(), [&](const Pair& x, const Pair& y) {
-      if (independent(x) != independent(y)) return independent(x);
-      return distance(x.apart[k], limit) < distance(y.apart[k], limit);
-    });
+  // By what is known up to kept frame k.
+  Verdict verdict(std::size_t k) const {
+    const auto flown = std::find_if(candidates_.begin(), candidates_.end(),
+                                    [](const Candidate& c) { return c.used.only_flight(); });
+    Verdict verdict;
+    if (flown != candidates_.end()) {
+      verdict.reference = static_cast<std::size_t>(flown - candidates_.begin());
+      verdict.witnesses = others(verdict.reference);
+      const auto nearest = std::min_element(
+          verdict.witnesses.begin(), verdict.witnesses.end(), [&](std::size_t a, std::size_t b) {
+            return far(verdict.reference, a, k) < far(verdict.reference, b, k);
+          });
+      verdict.witnesses = {*nearest};
+      return verdict;
+    }
+    for (std::size_t i = 1; i < size(); ++i)
+      if (farthest(i, k) < farthest(verdict.reference, k)) verdict.reference = i;
+    verdict.witnesses = others(verdict.reference);
+    return verdict;
   }
-  bool independent(const Pair& pair) const {
-    return !candidates_[pair.a].used.shares_one_with(candidates_[pair.b].used);
+
+  PoseError certificate(const Verdict& verdict, std::size_t k) const {
+    PoseError error;
+    for (const std::size_t w : verdict.witnesses)
+      error = largest(error, apart(verdict.reference, w)[k]);
+    return error;
+  }
+  bool agrees(std::size_t k) const { return distance(certificate(verdict(k), k), limit_) <= 1; }
+
+  // Is there a witness that no method of the reference moves bodies in?
+  bool is_independent(const Verdict& verdict) const {
+    const MethodsUsed& used = candidates_[verdict.reference].used;
+    return std::any_of(verdict.witnesses.begin(), verdict.witnesses.end(),
+                       [&](std::size_t w) { return !used.shares_one_with(candidates_[w].used); });
+  }
+
+  std::string names(const std::vector<std::size_t>& indices) const {
+    std::string text;
+    for (const std::size_t i : indices) text += (text.empty() ? "" : " and ") + candidates_[i].name;
+    return text;
   }
   std::size_t bodies() const { return candidates_.front().layer.snapshot().bodies.size(); }
-  Candidate& candidate(std::size_t i) { return candidates_[i]; }
+  Path take_path(std::size_t i) { return std::move(candidates_[i].path); }
 
  private:
-  // Bodies that were frozen where they are agree on nothing.
-  PoseError apart_now(const Pair& pair) const {
-    const Candidate &a = candidates_[pair.a], &b = candidates_[pair.b];
-    if (a.layer.report().quarantined + b.layer.report().quarantined > 0)
-      return {INFINITY, INFINITY};
-    return Path::last_distance(a.path, b.path);
+  std::size_t size() const { return candidates_.size(); }
+  std::vector<PoseError>& apart(std::size_t a, std::size_t b) { return apart_[a * size() + b]; }
+  const std::vector<PoseError>& apart(std::size_t a, std::size_t b) const {
+    return apart_[a * size() + b];
   }
 
+  // Bodies that were frozen where they are agree on nothing.
+  PoseError apart_now(std::size_t a, std::size_t b) const {
+    const Candidate &x = candidates_[a], &y = candidates_[b];
+    if (x.layer.report().quarantined + y.layer.report().quarantined > 0)
+      return {INFINITY, INFINITY};
+    return Path::last_distance(x.path, y.path);
+  }
+
+  std::vector<std::size_t> others(std::size_t than) const {
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (i != than) all.push_back(i);
+    return all;
+  }
+  double far(std::size_t a, std::size_t b, std::size_t k) const {
+    return distance(apart(a, b)[k], limit_);
+  }
+  double farthest(std::size_t a, std::size_t k) const {
+    double most = 0;
+    for (const std::size_t b : others(a)) most = std::max(most, far(a, b, k));
+    return most;
+  }
+
+  PoseError limit_;
   std::vector<Candidate> candidates_;
-  std::vector<Pair> pairs_;
+  std::vector<std::vector<PoseError>> apart_;  // of a and b: largest up to each kept frame
 };
 
 std::optional<HorizonEnd> must_end(const ReferenceOptions& options, std::size_t kept,
@@ -118,7 +172,7 @@ std::vector<Setting> reference_settings(const Scene& scene) {
 
 Reference make_reference(const Scene& scene, const std::vector<Setting>& candidates,
                          const ReferenceOptions& options, std::stop_token stop) {
-  Comparison comparison(scene, candidates);
+  Comparison comparison(scene, candidates, options.limit);
   Reference reference;
   ReferenceInfo& info = reference.info;
   info.limit = options.limit;
@@ -131,7 +185,7 @@ Reference make_reference(const Scene& scene, const std::vector<Setting>& candida
     comparison.advance();
     if (frame % reference.stride != 0 && frame != options.frames) continue;
     comparison.keep();
-    if (distance(comparison.best(kept + 1, info.limit).apart.back(), info.limit) > 1) {
+    if (!comparison.agrees(kept + 1)) {
       info.end = HorizonEnd::disagreement;
       break;
     }
@@ -145,14 +199,14 @@ Reference make_reference(const Scene& scene, const std::vector<Setting>& candida
     options.progress(static_cast<double>(frame) / static_cast<double>(options.frames));
   }
 
-  const Pair& pair = comparison.best(kept, info.limit);
-  info.name = comparison.candidate(pair.a).name;
-  info.check = comparison.candidate(pair.b).name;
-  info.independent = comparison.independent(pair);
-  reference.certificate.assign(pair.apart.begin(),
-                               pair.apart.begin() + static_cast<std::ptrdiff_t>(kept + 1));
+  const Verdict verdict = comparison.verdict(kept);
+  info.name = comparison.names({verdict.reference});
+  info.check = comparison.names(verdict.witnesses);
+  info.independent = comparison.is_independent(verdict);
+  for (std::size_t k = 0; k <= kept; ++k)
+    reference.certificate.push_back(comparison.certificate(verdict, k));
   info.certificate = reference.certificate.back();
-  reference.path = std::move(comparison.candidate(pair.a).path);
+  reference.path = comparison.take_path(verdict.reference);
   reference.path.cut(kept + 1);
   return reference;
 }

@@ -1,8 +1,14 @@
 // Reference: what errors are measured against, computed by several methods side by side and
-// certified by the agreement of two that have nothing in common.
+// certified by their agreement.
 //
-// The certificate at a time is the largest difference of the two up to then. It grows; where it
-// passes the limit the horizon is reached: nobody knows where the bodies are after that.
+// A run in closed form throughout shares nothing with one in steps, not even rounding: it is the
+// reference, and the other that agrees with it best certifies it. Among runs in steps the one in
+// the middle is the reference, and all others must agree with it: sums over the same steps may be
+// wrong in the same way.
+//
+// The certificate at a time is the largest difference from the certifying runs up to then. It
+// grows; where it passes the limit the horizon is reached: nobody knows where the bodies are after
+// that.
 
 #pragma once
 
@@ -36,8 +42,8 @@ struct ReferenceOptions {
 // The methods at their tightest: closed form and series, the series, DOP853.
 std::vector<Setting> reference_settings(const Scene& scene);
 
-// Runs the scene with the candidates (two or more) side by side. The pair of independent ones that
-// agrees best certifies; the first of it is the reference. frames is 0 if none agree on one frame.
+// Runs the scene with the candidates, two or more, side by side. frames is 0 if they do not agree
+// on one frame.
 Reference make_reference(const Scene& scene, const std::vector<Setting>& candidates,
                          const ReferenceOptions& options, std::stop_token stop);
 

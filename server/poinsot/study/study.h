@@ -58,17 +58,17 @@ struct Row {
 
 enum class HorizonEnd {
   asked,         // the reference exists as far as was asked for
-  disagreement,  // the certifying methods part
+  disagreement,  // the runs part
   budget,        // there was no time for more
   interrupted,
 };
 
-// The run that errors are measured against, and the one that vouches for it.
+// The run that errors are measured against, and those that vouch for it.
 struct ReferenceInfo {
   std::string name;         // of the reference: "taylor default"
-  std::string check;        // of the run that it agrees with
-  bool independent = true;  // no method moved a body in both
-  PoseError certificate;    // their largest difference up to the horizon
+  std::string check;        // of the runs that it agrees with
+  bool independent = true;  // one of them shares no method with it
+  PoseError certificate;    // the largest difference up to the horizon
   PoseError limit;          // the difference that ends the horizon
   HorizonEnd end = HorizonEnd::asked;
 };

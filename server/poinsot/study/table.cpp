@@ -102,7 +102,7 @@ std::string horizon_text(const StudyResult& result) {
       return fmt::format("Errors are measured up to t = {}, as asked for.\n", t);
     case HorizonEnd::disagreement:
       return fmt::format(
-          "A reference exists up to t = {}: there the two part by more than {:.1g} m or {:.1g} "
+          "A reference exists up to t = {}: there they part by more than {:.1g} m or {:.1g} "
           "rad.\nErrors are measured up to there.\n",
           t, r.limit.position, r.limit.orientation);
     case HorizonEnd::budget:
@@ -122,14 +122,14 @@ std::string reference_text(const StudyResult& result) {
     return "Interrupted before the first frame of the reference.\n";
   if (result.horizon == 0)
     return fmt::format(
-        "No reference exists: {} and {} part by more than {:.1g} m or {:.1g} rad\nwithin the first "
+        "No reference exists: {} and {}\npart by more than {:.1g} m or {:.1g} rad within the first "
         "frame.\n",
         r.name, r.check, r.limit.position, r.limit.orientation);
-  std::string text = fmt::format("Reference: {}, certified by {}: they agree to {} m and {} rad.\n",
-                                 r.name, r.check, bound_text(r.certificate.position),
-                                 bound_text(r.certificate.orientation));
+  std::string text = fmt::format(
+      "Reference: {}, certified by {}.\nThey agree to {} m and {} rad.\n", r.name, r.check,
+      bound_text(r.certificate.position), bound_text(r.certificate.orientation));
   if (!r.independent)
-    text += "The two share a method that moves bodies, so that their agreement proves less.\n";
+    text += "They share a method that moves bodies, so that their agreement proves less.\n";
   return text + horizon_text(result);
 }
 

@@ -26,5 +26,11 @@ TEST(MethodsUsed, OfTwoRunsThatBothLeaveABodyAloneHaveNothingInCommon) {
   EXPECT_TRUE(flight.shares_one_with(used({Method::taylor, Method::flight})));
 }
 
+TEST(MethodsUsed, KnowARunInClosedFormThroughout) {
+  EXPECT_TRUE(used({Method::flight, Method::none}).only_flight());
+  EXPECT_FALSE(used({Method::flight, Method::taylor}).only_flight());
+  EXPECT_FALSE(used({Method::none}).only_flight());
+}
+
 }  // namespace
 }  // namespace poinsot

@@ -89,12 +89,25 @@ TEST(Reference, DoesNotExistWhereTheMethodsPartAtOnce) {
   EXPECT_EQ(r.info.certificate, PoseError{});
 }
 
-TEST(Reference, IsOfThePairThatAgreesBest) {
-  const Reference r = reference({test::setting(semi_implicit_euler, 1. / 60),
-                                 test::setting(rk4, 1. / 960), test::setting(rk4, 1. / 240)},
-                                options(10));
-  EXPECT_EQ(r.info.name, "rk4 1/960 s");
-  EXPECT_EQ(r.info.check, "rk4 1/240 s");
+// Where all are in steps the one in the middle is the reference, and the farthest limits what is
+// known.
+TEST(Reference, InStepsIsInTheMiddleAndAllMustAgree) {
+  const Setting far = test::setting(rk4, 1. / 60), middle = test::setting(rk4, 1. / 120),
+                near = test::setting(rk4, 1. / 960);
+  const Reference r = reference({far, middle, near}, options(10));
+  EXPECT_EQ(r.info.name, "rk4 1/120 s") << "its error is 1/16 of that of 1/60 s";
+  EXPECT_EQ(r.info.check, "rk4 1/60 s and rk4 1/960 s");
+  EXPECT_EQ(r.info.certificate.orientation,
+            reference({middle, far}, options(10)).info.certificate.orientation);
+}
+
+// A body without a wrench flies; then the best of the others certifies.
+TEST(Reference, InClosedFormIsCertifiedByTheBestOfTheOthers) {
+  const Setting coarse = test::setting(rk4, 1. / 60), fine = test::setting(rk4, 1. / 960);
+  const Reference r = reference({coarse, test::setting(exact, 0), fine}, options());
+  EXPECT_EQ(r.info.name, "exact default");
+  EXPECT_EQ(r.info.check, "rk4 1/960 s");
+  EXPECT_TRUE(r.info.independent);
 }
 
 TEST(Reference, KeepsFewerFramesWhereThereAreMany) {

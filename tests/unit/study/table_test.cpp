@@ -99,7 +99,7 @@ TEST(ReferenceText, SaysWhereTheHorizonIsAndWhy) {
   EXPECT_NE(reference_text(result).find("No reference exists"), std::string::npos);
 }
 
-TEST(ReferenceText, WarnsIfTheTwoMethodsAreOne) {
+TEST(ReferenceText, WarnsIfTheMethodsAreOne) {
   StudyResult result = test::result({});
   EXPECT_EQ(reference_text(result).find("share a method"), std::string::npos);
   result.reference.independent = false;
