@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "poinsot/base/error.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/wire/publisher.h"
 #include "poinsot/wire/subscriber.h"
 #include "support/protocol_equality.h"
@@ -36,6 +37,11 @@ TEST(RoundTrip, ABodyArrivesAsItIs) {
 }
 TEST(RoundTrip, AReportArrivesAsItIs) {
   expect_delivery(sample::report());
+}
+TEST(RoundTrip, AReportOfAsManyBodiesAsAllowedArrivesAsItIs) {
+  RunReport report = sample::report();
+  report.body_methods.assign(kMaxBodies, Method::rk4);
+  expect_delivery(report);
 }
 TEST(RoundTrip, AWrenchArrivesAsItIs) {
   expect_delivery(sample::wrench());

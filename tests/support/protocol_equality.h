@@ -75,6 +75,11 @@ inline void expect_same(const RunReport& a, const RunReport& b) {
   EXPECT_EQ(a.frame.energy_error, b.frame.energy_error);
   EXPECT_EQ(a.frame.push_out_energy, b.frame.push_out_energy);
   EXPECT_EQ(a.frame.max_penetration, b.frame.max_penetration);
+  EXPECT_EQ(a.frame.position_error, b.frame.position_error);
+  EXPECT_EQ(a.frame.orientation_error, b.frame.orientation_error);
+  EXPECT_EQ(a.frame.momentum_error, b.frame.momentum_error);
+  EXPECT_EQ(a.frame.methods, b.frame.methods);
+  EXPECT_EQ(a.body_methods, b.body_methods);
   EXPECT_EQ(a.frame.flags, b.frame.flags);
   EXPECT_EQ(a.frame_rate, b.frame_rate);
   EXPECT_EQ(a.real_time_factor, b.real_time_factor);

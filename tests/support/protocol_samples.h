@@ -64,7 +64,12 @@ inline RunReport report() {
                   .energy_error = 39e-12,
                   .push_out_energy = 40.5,
                   .max_penetration = 41e-6,
-                  .flags = FrameFlag::inbox_full | FrameFlag::overrun};
+                  .position_error = 41e-15,
+                  .orientation_error = 42e-15,
+                  .momentum_error = 43e-15,
+                  .methods = {141, 142, 143, 144, 145, 146, 147, 148, 149},
+                  .flags = FrameFlag::inbox_full | FrameFlag::overrun | FrameFlag::stiff};
+  report.body_methods = {Method::flight, Method::explicit_euler, Method::none, Method::taylor};
   report.frame_rate = 42.5;
   report.real_time_factor = 43.5;
   report.state_hash = 44;

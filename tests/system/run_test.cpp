@@ -20,7 +20,9 @@ constexpr std::chrono::seconds kLeave{2};
 void expect_summary(const Json& summary) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : summary.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (Words{"frames", "sim_time", "wall_s", "cpu_s", "bodies", "state_hash"}));
+  EXPECT_EQ(keys, (Words{"frames", "sim_time", "wall_s", "cpu_s", "bodies", "energy_error",
+                         "momentum_error", "position_error", "orientation_error", "methods",
+                         "state_hash"}));
   std::vector<std::string> layers;
   for (const auto& [layer, seconds] : summary["cpu_s"].items()) {
     layers.push_back(layer);
@@ -37,8 +39,8 @@ TEST(Run, InvitesClientsAndPrintsAStatusLineASecond) {
   EXPECT_NE(daemon.welcome[2].find("poinsot push "), std::string::npos);
   for (int i = 0; i < 2; ++i) {
     const std::string line = daemon.read_line();
-    for (const char* word :
-         {"frame ", "time ", "real-time factor ", "bodies ", "contacts ", "energy error "})
+    for (const char* word : {"frame ", "time ", "real-time factor ", "bodies ", "contacts ",
+                             "energy error ", "local error ", "momentum error "})
       EXPECT_NE(line.find(word), std::string::npos) << word << " in: " << line;
   }
 }

@@ -27,8 +27,48 @@ constexpr Fault kFaults[] = {
     {"UnknownBodyKey", 2, "'density'", "bodies:\n  - {name: a, shape: {sphere: 1}, densty: 1}\n"},
     {"UnknownShape", 2, "'sphere'", "bodies:\n  - {name: a, shape: {sphere_: 1}, density: 1}\n"},
     {"UnknownIntegrator", 1, "'rk4'", "simulation: {integrator: rk5}\nbodies: []\n"},
-    {"KeyOfLater", 2, "drag",
-     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1, drag: {linear: 1}}\n"},
+    {"KeyOfLater", 2, "kinematic",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1, kinematic: true}\n"},
+    {"Tolerance", 1, "tolerance", "simulation: {tolerance: 1}\nbodies: []\n"},
+    {"Drag", 2, "linear drag",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1, drag: {linear: -1}}\n"},
+    {"DragOfAStaticBody", 2, "static",
+     "bodies:\n  - {name: a, static: true, drag: {quadratic: 1}}\n"},
+    {"SpringOnNobody", 4, "did you mean 'box'",
+     "bodies:\n  - {name: box, shape: {sphere: 1}, density: 1}\nsprings:\n"
+     "  - {a: bax, point_b: [0, 0, 2], stiffness: 1}\n"},
+    {"SpringOfNothing", 4, "stiffness",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1}\nsprings:\n"
+     "  - {a: a, point_b: [0, 0, 2]}\n"},
+    {"SpringOnOneBody", 4, "two bodies",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1}\nsprings:\n"
+     "  - {a: a, b: a, point_b: [0, 0, 2], stiffness: 1}\n"},
+    {"SpringOnTheWorldAlone", 4, "moves",
+     "bodies:\n  - {name: a, static: true}\nsprings:\n"
+     "  - {a: a, point_b: [0, 0, 2], stiffness: 1}\n"},
+    {"SpringWithoutDirection", 4, "coincide",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1}\nsprings:\n"
+     "  - {a: a, stiffness: 1, rest_length: 1}\n"},
+    {"SpringNegative", 4, "damping",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1}\nsprings:\n"
+     "  - {a: a, point_b: [0, 0, 2], stiffness: 1, damping: -1}\n"},
+    {"WrenchOnNobody", 4, "did you mean 'box'",
+     "bodies:\n  - {name: box, shape: {sphere: 1}, density: 1}\nwrenches:\n"
+     "  - {body: bax, force: [1, 0, 0]}\n"},
+    {"WrenchOnAStaticBody", 4, "static",
+     "bodies:\n  - {name: a, static: true}\nwrenches:\n  - {body: a, torque: [1, 0, 0]}\n"},
+    {"WrenchNotFinite", 4, "finite",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1}\nwrenches:\n"
+     "  - {body: a, force: [.nan, 0, 0]}\n"},
+    {"WrenchTooLarge", 4, "1e+12 N",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1}\nwrenches:\n"
+     "  - {body: a, force: [1e13, 0, 0]}\n"},
+    {"WrenchPointInTheWorldLater", 4, "time 0",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1}\nwrenches:\n"
+     "  - {body: a, force: [1, 0, 0], point: [1, 0, 0], point_frame: world, start: 1}\n"},
+    {"WrenchTimes", 4, "duration",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1}\nwrenches:\n"
+     "  - {body: a, force: [1, 0, 0], duration: -1}\n"},
     {"NoBodies", 1, "bodies", "world: empty\n"},
     {"NoName", 2, "name", "bodies:\n  - {shape: {sphere: 1}, density: 1}\n"},
     {"NoMass", 2, "density", "bodies:\n  - {name: a, shape: {sphere: 1}}\n"},
@@ -107,6 +147,15 @@ TEST(SceneFaults, AreNoneInTheShippedScenes) {
       EXPECT_EQ(ended.code, 0) << name << ended.errors;
       EXPECT_NE(ended.out.find("valid"), std::string::npos) << name;
     }
+  }
+}
+
+TEST(SceneFaults, AreNoneInTheScenesOfTheTests) {
+  for (const char* scene : {"drag_linear", "drag_quadratic", "racket", "spring", "torque", "tumble",
+                            "two_bodies_spring"}) {
+    const Ended ended =
+        run_daemon({"check", std::string(POINSOT_TEST_SCENES) + "/" + scene + ".yaml"});
+    EXPECT_EQ(ended.code, 0) << scene << ended.errors;
   }
 }
 

@@ -71,6 +71,8 @@ TEST(Status, TellsHowTheRunGoes) {
   const Daemon daemon("tower", {"--paused"});
   const Json status = client_json({"status"});
   EXPECT_EQ(status["world"], "tower");
+  EXPECT_EQ(status["body_methods"].size(), status["bodies"].get<std::size_t>());
+  for (const Json& body : status["body_methods"]) EXPECT_TRUE(body.contains("name")) << body;
   EXPECT_EQ(status["state"], "paused");
   EXPECT_EQ(status["frame"], 0);
   EXPECT_EQ(status["frame_rate"], 60.0);

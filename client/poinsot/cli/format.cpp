@@ -4,6 +4,7 @@
 
 #include "poinsot/cli/units.h"
 #include "poinsot/program/log.h"
+#include "poinsot/protocol/methods_text.h"
 
 namespace poinsot {
 namespace {
@@ -118,6 +119,10 @@ std::string status_text(const std::string& world, const RunReport& r) {
   text += fmt::format("contacts     {}, deepest {:.3g} m\n", f.contacts, f.max_penetration);
   text += fmt::format("energy       {:.6g} J, error {:.3g}, push-out {:.3g} J\n", f.energy,
                       f.energy_error, f.push_out_energy);
+  text += fmt::format("local error  {:.3g} m, {:.3g} rad\n", f.position_error, f.orientation_error);
+  text += fmt::format("momentum     error {:.3g}\n", f.momentum_error);
+  const std::string methods = methods_text(f);
+  text += fmt::format("methods      {}\n", methods.empty() ? "none yet" : methods);
   text += fmt::format("commands     {} accepted, {} refused\n", r.commands_accepted,
                       r.commands_refused);
   text += fmt::format("snapshots    {} dropped\n", r.snapshots_dropped);

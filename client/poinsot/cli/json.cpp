@@ -78,6 +78,31 @@ Json flag_names(FrameFlag flags) {
   return names;
 }
 
+Json method_counts(const FrameReport& frame) {
+  Json counts = Json::object();
+  for (const Named<Method>& row : kMethodNames)
+    counts[std::string(row.name)] = frame.methods[static_cast<std::size_t>(row.value)];
+  return counts;
+}
+
+Json body_methods(const RunReport& report, const std::vector<BodyInfo>& bodies) {
+  std::vector<const BodyInfo*> moving;
+  for (const BodyInfo& body : bodies)
+    if (!body.is_static && body.session == report.session) moving.push_back(&body);
+  const bool named = moving.size() == report.body_methods.size();
+  Json list = Json::array();
+  for (std::size_t k = 0; k < report.body_methods.size(); ++k) {
+    Json entry = Json::object();
+    if (named)
+      entry["name"] = moving[k]->name;
+    else
+      entry["index"] = k;
+    entry["method"] = name_of<Method>(kMethodNames, report.body_methods[k]);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 }  // namespace
 
 // Written by hand: a thousand bodies at full frame rate would keep a tree of values busy.
@@ -127,7 +152,8 @@ std::string control_json(std::string_view action, const Reply& reply, double fra
                {"state_hash", hex(reply.state_hash)}});
 }
 
-std::string status_json(const std::string& world, const RunReport& report) {
+std::string status_json(const std::string& world, const RunReport& report,
+                        const std::vector<BodyInfo>& bodies) {
   const FrameReport& frame = report.frame;
   return line({{"world", world},
                {"session", hex(report.session)},
@@ -144,6 +170,11 @@ std::string status_json(const std::string& world, const RunReport& report) {
                {"energy", frame.energy},
                {"energy_error", frame.energy_error},
                {"push_out_energy", frame.push_out_energy},
+               {"position_error", frame.position_error},
+               {"orientation_error", frame.orientation_error},
+               {"momentum_error", frame.momentum_error},
+               {"methods", method_counts(frame)},
+               {"body_methods", body_methods(report, bodies)},
                {"flags", flag_names(frame.flags)},
                {"state_hash", hex(report.state_hash)},
                {"overruns", report.overruns},

@@ -25,8 +25,11 @@ std::string push_json(const WrenchCommand& command, const Reply& reply, double f
 // {"action", "code", "message", "epoch", "frame", "time", "state_hash"}.
 std::string control_json(std::string_view action, const Reply& reply, double frame_rate);
 
-// The report, with its fields' own names and units.
-std::string status_json(const std::string& world, const RunReport& report);
+// The report, with its fields' own names and units. "methods" counts bodies by method;
+// "body_methods" is [{"name", "method"}] in the order of the scene, or [{"index", "method"}] if
+// `bodies` are not those of the report.
+std::string status_json(const std::string& world, const RunReport& report,
+                        const std::vector<BodyInfo>& bodies);
 
 // {"world", "state", "frame", "time", "frame_rate", "bodies": [{"name", "static", "mass"}]}.
 std::string list_json(const std::string& world, const RunReport& report,

@@ -11,8 +11,8 @@
 namespace poinsot {
 namespace {
 
-constexpr std::array<Named<Axes>, 2> kAxesNames = {{{"world", Axes::world}, {"body", Axes::body}}};
-constexpr std::array<Named<PointFrame>, 2> kPointFrameNames = {
+// Without a point it is the centre of mass; with one, one of these.
+constexpr std::array<Named<PointFrame>, 2> kAtFrameNames = {
     {{"world", PointFrame::world}, {"body", PointFrame::body}}};
 
 ExitCode push(const Context& context, const PushOptions& options) {
@@ -46,7 +46,7 @@ void add_push_options(CLI::App& app, PushOptions& options) {
   CLI::Option* const at =
       add_vector_option(app, "--at", options.at, "[m] where the force acts [the centre of mass]")
           ->each([&options](const std::string&) { options.has_point = true; });
-  add_choice_option<PointFrame>(app, "--at-frame", options.at_frame, kPointFrameNames,
+  add_choice_option<PointFrame>(app, "--at-frame", options.at_frame, kAtFrameNames,
                                 "frame of that point; body: from its origin [body]")
       ->needs(at);
   CLI::Option* const duration =

@@ -7,6 +7,18 @@
 #include "poinsot/cli/json.h"
 
 namespace poinsot {
+namespace {
+
+// For their names; a status without them is better than none.
+std::vector<BodyInfo> bodies(Client& client, Client::Duration timeout) {
+  try {
+    return client.scene(timeout);
+  } catch (const NoAnswer&) {
+    return {};
+  }
+}
+
+}  // namespace
 
 Action declare_status(CLI::App& app) {
   const auto json = std::make_shared<bool>(false);
@@ -15,7 +27,8 @@ Action declare_status(CLI::App& app) {
     Client client = connect(context);
     const RunReport report = client.report(context.flags.timeout);
     const std::string text =
-        *json ? status_json(client.world(), report) : status_text(client.world(), report);
+        *json ? status_json(client.world(), report, bodies(client, context.flags.timeout))
+              : status_text(client.world(), report);
     std::fputs(text.c_str(), stdout);
     return ExitCode::ok;
   };

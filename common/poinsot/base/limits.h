@@ -1,9 +1,10 @@
-// Sizes that fit on the bus. A scene beyond them is refused while loading; a message beyond them is
-// refused where it arrives.
+// Sizes that fit on the bus, and numbers that are still plausible. A scene beyond them is refused
+// while loading; a message beyond them is refused where it arrives.
 
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace poinsot {
 
@@ -13,5 +14,14 @@ inline constexpr std::size_t kMaxMessageLength = 1023;  // bytes of a reply's te
 inline constexpr std::size_t kMaxShapes = 64;           // of one body
 inline constexpr std::size_t kMaxVertices = 4096;       // of one convex shape
 inline constexpr std::size_t kMaxFaceIndices = 32768;   // of one convex shape: corners and faces
+
+inline constexpr std::size_t kMaxSprings = 131072;      // of one scene
+inline constexpr std::size_t kMaxHeldWrenches = 65536;  // at once, of the scene and all clients
+
+// The largest force [N] or torque [N·m] component and point coordinate [m] that is accepted.
+inline constexpr double kMaxWrench = 1e12;
+inline constexpr double kMaxPoint = 1e9;
+// The longest duration that is accepted: about 31 years of simulated time [ns].
+inline constexpr std::int64_t kMaxDurationNs = 1'000'000'000'000'000'000;
 
 }  // namespace poinsot

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "poinsot/base/body_id.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/math/types.h"
 #include "poinsot/protocol/result.h"
 #include "poinsot/scene/scene.h"
@@ -42,12 +43,6 @@ struct WrenchCommand {
   std::int64_t duration_ns = 0;   // [ns] simulated time, for Hold::duration
   std::uint64_t start_frame = 0;  // first frame of effect; 0: the next
 };
-
-// The largest force [N] or torque [N·m] component and point coordinate [m] that is accepted.
-inline constexpr double kMaxWrench = 1e12;
-inline constexpr double kMaxPoint = 1e9;
-// The longest duration that is accepted: about 31 years of simulated time [ns].
-inline constexpr std::int64_t kMaxDurationNs = 1'000'000'000'000'000'000;
 
 // The answer to a command or a control.
 struct Reply {

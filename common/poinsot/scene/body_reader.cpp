@@ -27,6 +27,7 @@ class BodyReader {
       body_.is_static = reader_.boolean(*node, "static").value_or(false);
     read_motion(*fields);
     if (const YamlNode* node = fields->find("material")) read_material(*node);
+    if (const YamlNode* node = fields->find("drag")) read_drag(*node);
     read_shapes(*fields);
     read_mass(*fields);
     return body_;
@@ -58,14 +59,19 @@ class BodyReader {
   void read_material(const YamlNode& node) {
     const auto fields = reader_.fields(node, "material", kMaterialTable);
     if (!fields) return;
-    auto read = [&](std::string_view key, double& value) {
-      const YamlNode* item = fields->find(key);
-      if (!item) return;
-      faults_.place(path_ + std::string(".material.").append(key), *item);
-      value = reader_.number(*item, key).value_or(value);
-    };
-    read("friction", body_.material.friction);
-    read("restitution", body_.material.restitution);
+    const std::string path = path_ + ".material";
+    read_number(*fields, "friction", path, body_.material.friction, faults_, reader_);
+    read_number(*fields, "restitution", path, body_.material.restitution, faults_, reader_);
+  }
+
+  void read_drag(const YamlNode& node) {
+    const std::string path = path_ + ".drag";
+    faults_.place(path, node);
+    const auto fields = reader_.fields(node, "drag", kDragTable);
+    if (!fields) return;
+    read_number(*fields, "linear", path, body_.drag.linear, faults_, reader_);
+    read_number(*fields, "quadratic", path, body_.drag.quadratic, faults_, reader_);
+    read_number(*fields, "angular", path, body_.drag.angular, faults_, reader_);
   }
 
   // Shapes ----------------------------------------------------------------------------------------

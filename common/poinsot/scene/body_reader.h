@@ -1,4 +1,5 @@
-// One body of a scene file: YAML → BodyDef. Reads shapes, masses, pose, velocities, material.
+// One body of a scene file: YAML → BodyDef. Reads shapes, masses, pose, velocities, material,
+// drag.
 
 #pragma once
 

@@ -11,11 +11,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,7 @@ extern "C" {
 }
 
 #include "poinsot/base/error.h"
+#include "poinsot/base/hash.h"
 #include "poinsot/scene/shape.h"
 
 namespace poinsot {
@@ -58,24 +61,55 @@ Points normalized(std::span<const Vec3> points) {
   return result;
 }
 
+// The points that were kept so far, in cells so small that only a few of them fit into one.
+class KeptPoints {
+ public:
+  explicit KeptPoints(const Points& points) : points_(points) {}
+
+  bool has_one_near(const Vec3& p) const {
+    const Cell low = cell(p.array() - kRepeatTolerance), high = cell(p.array() + kRepeatTolerance);
+    for (std::int64_t x = low[0]; x <= high[0]; ++x)
+      for (std::int64_t y = low[1]; y <= high[1]; ++y)
+        for (std::int64_t z = low[2]; z <= high[2]; ++z)
+          if (has_one_near(p, {x, y, z})) return true;
+    return false;
+  }
+  void keep(int i) { cells_[cell(at(points_, i))].push_back(i); }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  struct CellHash {
+    std::size_t operator()(const Cell& c) const {
+      Hash64 hash;
+      for (const std::int64_t i : c) hash.add(static_cast<std::uint64_t>(i));
+      return static_cast<std::size_t>(hash.value());
+    }
+  };
+
+  static Cell cell(const Vec3& p) {
+    constexpr double kSide = 4 * kRepeatTolerance;
+    return {std::llround(p.x() / kSide), std::llround(p.y() / kSide), std::llround(p.z() / kSide)};
+  }
+  bool has_one_near(const Vec3& p, const Cell& c) const {
+    const auto found = cells_.find(c);
+    return found != cells_.end() && std::ranges::any_of(found->second, [&](int i) {
+             return (at(points_, i) - p).norm() <= kRepeatTolerance;
+           });
+  }
+
+  const Points& points_;
+  std::unordered_map<Cell, std::vector<int>, CellHash> cells_;
+};
+
 // Indices of the points without repetitions; of equal points the first stays.
 std::vector<int> distinct(const Points& points) {
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return at(points, a).x() < at(points, b).x(); });
-  std::vector<bool> repeated(points.size(), false);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const Vec3 apart = at(points, order[j]) - at(points, order[i]);
-      if (apart.x() > kRepeatTolerance) break;
-      if (apart.norm() <= kRepeatTolerance)
-        repeated[static_cast<std::size_t>(std::max(order[i], order[j]))] = true;
-    }
-  }
+  KeptPoints kept(points);
   std::vector<int> result;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!repeated[i]) result.push_back(static_cast<int>(i));
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    if (kept.has_one_near(at(points, i))) continue;
+    kept.keep(i);
+    result.push_back(i);
+  }
   return result;
 }
 

@@ -65,12 +65,24 @@ void read_orientation(const YamlNode& node, Quat& q, FaultList& faults, YamlRead
 
 }  // namespace
 
-void read_vector(const Fields& fields, std::string_view key, const std::string& path, Vec3& value,
+bool read_number(const Fields& fields, std::string_view key, const std::string& path, double& value,
                  FaultList& faults, YamlReader& reader) {
   const YamlNode* node = fields.find(key);
-  if (!node) return;
+  if (!node) return true;
   faults.place(std::string(path).append(".").append(key), *node);
-  value = reader.vector(*node, key).value_or(value);
+  const auto number = reader.number(*node, key);
+  value = number.value_or(value);
+  return number.has_value();
+}
+
+bool read_vector(const Fields& fields, std::string_view key, const std::string& path, Vec3& value,
+                 FaultList& faults, YamlReader& reader) {
+  const YamlNode* node = fields.find(key);
+  if (!node) return true;
+  faults.place(std::string(path).append(".").append(key), *node);
+  const auto vector = reader.vector(*node, key);
+  value = vector.value_or(value);
+  return vector.has_value();
 }
 
 void read_pose(const Fields& fields, const std::string& path, Pose& pose, FaultList& faults,

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -60,20 +61,29 @@ struct SpringDef {
 };
 
 enum class Axes : std::uint8_t { world = 0, body = 1 };
+inline constexpr std::array<Named<Axes>, 2> kAxesNames = {{
+    {"world", Axes::world},
+    {"body", Axes::body},
+}};
 
 // Where a force acts: at the centre of mass, or at a point given in W or in B (from B's origin).
 enum class PointFrame : std::uint8_t { center_of_mass = 0, world = 1, body = 2 };
+inline constexpr std::array<Named<PointFrame>, 3> kPointFrameNames = {{
+    {"center_of_mass", PointFrame::center_of_mass},
+    {"world", PointFrame::world},
+    {"body", PointFrame::body},
+}};
 
 // A force and a torque on one body from `start` on, for `duration`: what a client could also send.
-// Times are rounded to frames.
+// Times are rounded up to frames. No client can clear it.
 struct WrenchDef {
   std::string body;
   Vec3 force = Vec3::Zero();   // [N]
   Vec3 torque = Vec3::Zero();  // [N·m] a free couple
   Axes axes = Axes::world;     // of force and torque
-  Vec3 point = Vec3::Zero();   // [m] in the frame of point_frame; fixed to the body at `start`
+  Vec3 point = Vec3::Zero();   // [m] in the frame of point_frame; fixed to the body at time 0
   PointFrame point_frame = PointFrame::center_of_mass;
-  double start = 0;                // [s]
+  double start = 0;                // [s]; 0 if the point is given in W
   std::optional<double> duration;  // [s]; without it for ever
   std::string where;               // as BodyDef::where
 };

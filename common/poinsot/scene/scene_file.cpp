@@ -1,13 +1,17 @@
 #include "poinsot/scene/scene_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <string>
+#include <vector>
 
 #include "poinsot/base/error.h"
 #include "poinsot/scene/body_reader.h"
+#include "poinsot/scene/force_reader.h"
+#include "poinsot/scene/pose_reader.h"
 #include "poinsot/scene/yaml_reader.h"
 
 namespace poinsot {
@@ -41,6 +45,14 @@ class SceneReader {
       if (const YamlNode* node = fields->find("simulation")) read_simulation(*node);
       if (const YamlNode* node = reader_.required(*fields, root_, "a scene", "bodies"))
         read_bodies(*node);
+      // Whether a name is that of a body can be said only if all names are known.
+      bool names_known = fields->find("bodies") != nullptr && bodies_read_;
+      for (std::size_t i = 0; i < scene_.bodies.size() && names_known; ++i)
+        names_known = !faults_.distrusted("bodies[" + std::to_string(i) + "].name");
+      if (const YamlNode* node = fields->find("springs"))
+        read_list(*node, "springs", names_known, scene_.springs, read_spring);
+      if (const YamlNode* node = fields->find("wrenches"))
+        read_list(*node, "wrenches", names_known, scene_.wrenches, read_wrench);
     }
     faults_.add(validate(scene_), root_);
     if (const auto faults = faults_.sorted(); !faults.empty()) throw_faults(faults);
@@ -57,17 +69,13 @@ class SceneReader {
       scene_.allow_overlap = reader_.boolean(*node, "allow_overlap").value_or(false);
   }
 
-  void read_number(const Fields& fields, const std::string& table, std::string_view key,
-                   double& value) {
-    const YamlNode* node = fields.find(key);
-    if (!node) return;
-    faults_.place(std::string(table).append(".").append(key), *node);
-    value = reader_.number(*node, key).value_or(value);
+  void read(const Fields& fields, const std::string& table, std::string_view key, double& value) {
+    read_number(fields, key, table, value, faults_, reader_);
   }
 
   void read_presentation(const YamlNode& node) {
     if (const auto fields = reader_.fields(node, "presentation", kPresentationTable))
-      read_number(*fields, "presentation", "frame_rate", scene_.presentation.frame_rate);
+      read(*fields, "presentation", "frame_rate", scene_.presentation.frame_rate);
   }
 
   void read_collision(const YamlNode& node) {
@@ -88,9 +96,9 @@ class SceneReader {
       faults_.place("collision.iterations", *item);
       def.iterations = reader_.whole(*item, "iterations").value_or(def.iterations);
     }
-    read_number(*fields, "collision", "contact_step", def.contact_step);
-    read_number(*fields, "collision", "contact_margin", def.contact_margin);
-    read_number(*fields, "collision", "push_out_speed", def.push_out_speed);
+    read(*fields, "collision", "contact_step", def.contact_step);
+    read(*fields, "collision", "contact_margin", def.contact_margin);
+    read(*fields, "collision", "push_out_speed", def.push_out_speed);
   }
 
   void read_simulation(const YamlNode& node) {
@@ -100,15 +108,14 @@ class SceneReader {
     if (const YamlNode* item = fields->find("integrator"))
       def.integrator = reader_.named<IntegratorKind>(*item, "integrator", kIntegratorNames, {})
                            .value_or(def.integrator);
-    read_number(*fields, "simulation", "step", def.step);
-    if (const YamlNode* item = fields->find("gravity")) {
-      faults_.place("simulation.gravity", *item);
-      def.gravity = reader_.vector(*item, "gravity").value_or(def.gravity);
-    }
+    read(*fields, "simulation", "step", def.step);
+    read(*fields, "simulation", "tolerance", def.tolerance);
+    read_vector(*fields, "gravity", "simulation", def.gravity, faults_, reader_);
   }
 
   void read_bodies(const YamlNode& node) {
     const auto* items = reader_.list(node, "bodies");
+    bodies_read_ = items != nullptr;
     if (!items) return;
     scene_.bodies.reserve(items->size());
     for (const YamlNode* item : *items)
@@ -116,10 +123,25 @@ class SceneReader {
           *item, "bodies[" + std::to_string(scene_.bodies.size()) + "]", faults_, reader_));
   }
 
+  template <class Def>
+  void read_list(const YamlNode& node, const std::string& key, bool names_known,
+                 std::vector<Def>& defs,
+                 Def (*read_one)(const YamlNode&, const std::string&, bool, FaultList&,
+                                 YamlReader&)) {
+    const auto* items = reader_.list(node, key);
+    if (!items) return;
+    faults_.place(key, node);
+    defs.reserve(items->size());
+    for (const YamlNode* item : *items)
+      defs.push_back(read_one(*item, key + "[" + std::to_string(defs.size()) + "]", names_known,
+                              faults_, reader_));
+  }
+
   const YamlNode& root_;
   FaultList faults_;
   YamlReader reader_;
   Scene scene_;
+  bool bodies_read_ = false;
 };
 
 }  // namespace
@@ -135,8 +157,13 @@ Scene read_scene_file(const std::filesystem::path& file) {
     throw Error(file.string() + ": cannot be read: it is a directory");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
+  std::string text;
+  std::array<char, 1 << 16> part;
+  // One byte beyond the limit is enough to be refused, and a device may never end.
+  while (stream && text.size() <= kMaxYamlText) {
+    stream.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+  }
   if (!stream.is_open() || stream.bad())
     throw Error(file.string() + ": cannot be read: " + std::strerror(errno ? errno : EIO));
   return read_scene_text(text, file.string());

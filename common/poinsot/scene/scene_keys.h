@@ -19,21 +19,21 @@ namespace scene_keys {
 
 using Words = std::string_view[];
 
-inline constexpr Words kSceneKeys = {"world",      "presentation",  "collision",
-                                     "simulation", "allow_overlap", "bodies"};
-inline constexpr Words kSceneLater = {"profile", "pairs", "springs", "wrenches"};
+inline constexpr Words kSceneKeys = {"world",         "presentation", "collision", "simulation",
+                                     "allow_overlap", "bodies",       "springs",   "wrenches"};
+inline constexpr Words kSceneLater = {"profile", "pairs"};
 inline constexpr Words kPresentationKeys = {"frame_rate"};
 inline constexpr Words kCollisionKeys = {"impact_search", "contact_solver", "contact_step",
                                          "iterations",    "contact_margin", "push_out_speed"};
 inline constexpr Words kCollisionLater = {"contact_band", "max_impacts", "sleeping",
                                           "sleep_acceleration", "threads"};
-inline constexpr Words kSimulationKeys = {"integrator", "step", "gravity"};
-inline constexpr Words kSimulationLater = {"tolerance"};
+inline constexpr Words kSimulationKeys = {"integrator", "step", "tolerance", "gravity"};
 inline constexpr Words kBodyKeys = {
-    "name",          "static",   "shape",       "shapes",          "density",          "mass",
-    "inertia",       "position", "orientation", "linear_velocity", "angular_velocity", "material",
-    "center_of_mass"};
-inline constexpr Words kBodyLater = {"kinematic", "surface_velocity", "drag"};
+    "name",           "static",   "shape",       "shapes",          "density",          "mass",
+    "inertia",        "position", "orientation", "linear_velocity", "angular_velocity", "material",
+    "center_of_mass", "drag"};
+inline constexpr Words kBodyLater = {"kinematic", "surface_velocity"};
+inline constexpr Words kDragKeys = {"linear", "quadratic", "angular"};
 inline constexpr Words kShapeKeys = {"sphere",   "box",         "capsule", "cylinder",
                                      "cone",     "ellipsoid",   "convex",  "half_space",
                                      "position", "orientation", "density"};
@@ -46,6 +46,10 @@ inline constexpr Words kMaterialKeys = {"friction", "restitution"};
 inline constexpr Words kMaterialLater = {"static_friction"};
 inline constexpr Words kInertiaKeys = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
 inline constexpr Words kOrientationKeys = {"x", "y", "z", "w", "rpy"};
+inline constexpr Words kSpringKeys = {"a",         "b",       "point_a",    "point_b",
+                                      "stiffness", "damping", "rest_length"};
+inline constexpr Words kWrenchKeys = {"body",  "force",       "torque", "frame",
+                                      "point", "point_frame", "start",  "duration"};
 
 }  // namespace scene_keys
 
@@ -53,8 +57,7 @@ inline constexpr KeyTable kSceneTable = {"scene", scene_keys::kSceneKeys, scene_
 inline constexpr KeyTable kPresentationTable = {"presentation", scene_keys::kPresentationKeys, {}};
 inline constexpr KeyTable kCollisionTable = {"collision", scene_keys::kCollisionKeys,
                                              scene_keys::kCollisionLater};
-inline constexpr KeyTable kSimulationTable = {"simulation", scene_keys::kSimulationKeys,
-                                              scene_keys::kSimulationLater};
+inline constexpr KeyTable kSimulationTable = {"simulation", scene_keys::kSimulationKeys, {}};
 inline constexpr KeyTable kBodyTable = {"bodies[]", scene_keys::kBodyKeys, scene_keys::kBodyLater};
 inline constexpr KeyTable kShapeTable = {"shape", scene_keys::kShapeKeys, scene_keys::kShapeLater};
 inline constexpr KeyTable kRoundTable = {"capsule, cylinder, cone", scene_keys::kRoundKeys, {}};
@@ -65,11 +68,15 @@ inline constexpr KeyTable kMaterialTable = {"material", scene_keys::kMaterialKey
                                             scene_keys::kMaterialLater};
 inline constexpr KeyTable kInertiaTable = {"inertia", scene_keys::kInertiaKeys, {}};
 inline constexpr KeyTable kOrientationTable = {"orientation", scene_keys::kOrientationKeys, {}};
+inline constexpr KeyTable kDragTable = {"drag", scene_keys::kDragKeys, {}};
+inline constexpr KeyTable kSpringTable = {"springs[]", scene_keys::kSpringKeys, {}};
+inline constexpr KeyTable kWrenchTable = {"wrenches[]", scene_keys::kWrenchKeys, {}};
 
 // Where a misplaced key may belong, nearest to the top first.
-inline constexpr std::array<const KeyTable*, 8> kPlaces = {
+inline constexpr std::array<const KeyTable*, 11> kPlaces = {
     &kSceneTable, &kPresentationTable, &kCollisionTable, &kSimulationTable,
-    &kBodyTable,  &kMaterialTable,     &kShapeTable,     &kInertiaTable};
+    &kBodyTable,  &kMaterialTable,     &kShapeTable,     &kInertiaTable,
+    &kDragTable,  &kSpringTable,       &kWrenchTable};
 
 // Strategies of the plan that strategies.h does not have yet.
 inline constexpr std::string_view kImpactSearchesLater[] = {"conservative", "backtracking",

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,31 +9,23 @@
 #include "poinsot/base/limits.h"
 #include "poinsot/base/utf8.h"
 #include "poinsot/math/inertia.h"
+#include "poinsot/scene/fault_text.h"
 #include "poinsot/scene/scene.h"
+#include "poinsot/scene/validate_forces.h"
 
 namespace poinsot {
 namespace {
 
 constexpr double kUnitSlack = 1e-9;  // [-] how far from 1 the norm of a unit quantity may be
-constexpr double kMagnitude = 1e12;  // SI; lengths and speeds beyond it are slips of the pen
 constexpr double kMinFrameRate = 1e-3, kMaxFrameRate = 1e6;  // [Hz]
 constexpr double kMinStep = 1e-9, kMaxStep = 1;              // [s]
+constexpr double kMinTolerance = 1e-15, kMaxTolerance = 1e-1;
 constexpr double kMaxStepsPerFrame = 1e6;
 constexpr double kLeastMass = 1e-30, kMostMass = 1e30;  // [kg] squares and inverses stay finite
 constexpr int kMaxIterations = 1'000'000;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
-
-std::string quoted(std::string_view text) {
-  return std::string("'").append(text).append("'");
-}
-
 bool sane(const Vec3& v) {
-  return v.allFinite() && v.cwiseAbs().maxCoeff() <= kMagnitude;
+  return is_within(v, kMagnitude);
 }
 
 bool is_unit(double norm) {
@@ -58,15 +49,15 @@ std::string world_fault(std::string_view world) {
       });
   return good ? std::string()
               : "world must be 1 to " + std::to_string(kMaxNameLength) +
-                    " letters, digits, '_' or '-', is " + quoted(world);
+                    " letters, digits, '_' or '-', is " + in_quotes(world);
 }
 
 // Sizes ------------------------------------------------------------------------------------------
 
 std::string size_fault(std::string_view what, double value) {
   if (value > 0 && value <= kMagnitude) return {};
-  return std::string(what) + " must be > 0 m and at most " + number(kMagnitude) + " m, is " +
-         number(value);
+  return std::string(what) + " must be > 0 m and at most " + digits(kMagnitude) + " m, is " +
+         digits(value);
 }
 
 std::string sizes_fault(std::string_view what, const Vec3& sizes) {
@@ -97,7 +88,7 @@ struct ShapeFault {
       return "convex must be made by convex_hull(): it has " + std::to_string(s.vertices.size()) +
              " vertices and " + std::to_string(s.faces.size()) + " faces";
     if (!std::ranges::all_of(s.vertices, sane))
-      return "convex points must be finite and at most " + number(kMagnitude) + " m from 0";
+      return "convex points must be finite and at most " + digits(kMagnitude) + " m from 0";
     const int count = static_cast<int>(s.vertices.size());
     for (const Convex::Face& face : s.faces)
       for (int i : face.loop)
@@ -108,8 +99,8 @@ struct ShapeFault {
     if (!s.normal.allFinite() || !is_unit(s.normal.norm()))
       return "half_space normal must have length 1";
     if (!(std::abs(s.offset) <= kMagnitude))
-      return "half_space offset must be finite and at most " + number(kMagnitude) + " m, is " +
-             number(s.offset);
+      return "half_space offset must be finite and at most " + digits(kMagnitude) + " m, is " +
+             digits(s.offset);
     return {};
   }
 };
@@ -121,8 +112,8 @@ std::string inertia_fault(const Mat3& J) {
   if (is_physical_inertia(J)) return {};
   if (!J.isApprox(J.transpose(), kUnitSlack)) return "inertia must be symmetric";
   const Vec3 p = principal_moments(J);
-  return "no solid has this inertia: its principal moments are " + number(p[0]) + ", " +
-         number(p[1]) + " and " + number(p[2]) + " kg·m²; " +
+  return "no solid has this inertia: its principal moments are " + digits(p[0]) + ", " +
+         digits(p[1]) + " and " + digits(p[2]) + " kg·m²; " +
          (p[0] > 0 ? "the greatest must not exceed the sum of the other two" : "all must be > 0");
 }
 
@@ -135,6 +126,7 @@ class Validation {
     check_tables(scene);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       check_body(scene.bodies[i], "bodies[" + std::to_string(i) + "]");
+    for (SceneFault& fault : validate_forces(scene)) faults_.push_back(std::move(fault));
     return std::move(faults_);
   }
 
@@ -143,23 +135,23 @@ class Validation {
     if (!what.empty()) faults_.push_back({where, std::move(what), path});
   }
   void require(bool good, const std::string& path, const std::string& what, double value) {
-    if (!good) add("", path, what + ", is " + number(value));
+    if (!good) add("", path, what + ", is " + digits(value));
   }
 
   void check_tables(const Scene& scene) {
     const double rate = scene.presentation.frame_rate;
     require(rate >= kMinFrameRate && rate <= kMaxFrameRate, "presentation.frame_rate",
-            "frame_rate must be " + number(kMinFrameRate) + " to " + number(kMaxFrameRate) + " Hz",
+            "frame_rate must be " + digits(kMinFrameRate) + " to " + digits(kMaxFrameRate) + " Hz",
             rate);
     const CollisionDef& c = scene.collision;
     require(c.contact_step >= kMinStep && c.contact_step <= kMaxStep, "collision.contact_step",
-            "contact_step must be " + number(kMinStep) + " to " + number(kMaxStep) + " s",
+            "contact_step must be " + digits(kMinStep) + " to " + digits(kMaxStep) + " s",
             c.contact_step);
     for (const double step : {c.contact_step, scene.simulation.step})
       if (step > 0 && rate > 0 && 1 / (rate * step) > kMaxStepsPerFrame)
         add("", "collision.contact_step",
-            "a frame would take more than " + number(kMaxStepsPerFrame) + " steps of " +
-                number(step) + " s");
+            "a frame would take more than " + digits(kMaxStepsPerFrame) + " steps of " +
+                digits(step) + " s");
     require(c.iterations >= 1 && c.iterations <= kMaxIterations, "collision.iterations",
             "iterations must be 1 to " + std::to_string(kMaxIterations), c.iterations);
     require(c.contact_margin >= 0 && c.contact_margin <= 1, "collision.contact_margin",
@@ -168,12 +160,17 @@ class Validation {
             "push_out_speed must be >= 0 m/s and finite", c.push_out_speed);
     const SimulationDef& s = scene.simulation;
     require(s.step == 0 || (s.step >= kMinStep && s.step <= kMaxStep), "simulation.step",
-            "step must be 0 (one per contact step) or " + number(kMinStep) + " to " +
-                number(kMaxStep) + " s",
+            "step must be 0 (one per contact step) or " + digits(kMinStep) + " to " +
+                digits(kMaxStep) + " s",
             s.step);
+    require(s.tolerance == 0 || (s.tolerance >= kMinTolerance && s.tolerance <= kMaxTolerance),
+            "simulation.tolerance",
+            "tolerance must be 0 (the integrator's own) or " + digits(kMinTolerance) + " to " +
+                digits(kMaxTolerance),
+            s.tolerance);
     if (!sane(s.gravity))
       add("", "simulation.gravity",
-          "gravity must be finite and at most " + number(kMagnitude) + " m/s²");
+          "gravity must be finite and at most " + digits(kMagnitude) + " m/s²");
   }
 
   void check_body(const BodyDef& body, const std::string& path) {
@@ -181,12 +178,13 @@ class Validation {
     const auto [first, is_new] = names_.emplace(body.name, body.where.empty() ? path : body.where);
     if (!is_new)
       add(body.where, path + ".name",
-          "duplicate body name " + quoted(body.name) + ", first at " + first->second);
+          "duplicate body name " + in_quotes(body.name) + ", first at " + first->second);
     check_vector(body, path + ".position", body.pose.c, "m");
     check_vector(body, path + ".linear_velocity", body.linear_velocity, "m/s");
     check_vector(body, path + ".angular_velocity", body.angular_velocity, "rad/s");
     check_quaternion(body, path + ".orientation", body.pose.q);
     check_material(body, path + ".material");
+    check_drag(body, path + ".drag");
     for (std::size_t k = 0; k < body.shapes.size(); ++k)
       check_shape(body, body.shapes[k], path + ".shapes[" + std::to_string(k) + "]");
     if (body.shapes.size() > kMaxShapes)
@@ -199,11 +197,11 @@ class Validation {
   void check_masses(const BodyDef& body, const std::string& path) {
     const MassProperties& m = body.mass_properties;
     if (!(m.mass > 0) || !std::isfinite(m.mass))
-      add(body.where, path + ".mass", "mass must be > 0 kg and finite, is " + number(m.mass));
+      add(body.where, path + ".mass", "mass must be > 0 kg and finite, is " + digits(m.mass));
     else if (m.mass < kLeastMass || m.mass > kMostMass)
       add(body.where, path + ".mass",
-          "mass must be " + number(kLeastMass) + " to " + number(kMostMass) + " kg, is " +
-              number(m.mass));
+          "mass must be " + digits(kLeastMass) + " to " + digits(kMostMass) + " kg, is " +
+              digits(m.mass));
     check_vector(body, path + ".center_of_mass", m.center_of_mass, "m");
     if (m.mass > 0) add(body.where, path + ".inertia", inertia_fault(m.J));
   }
@@ -229,23 +227,33 @@ class Validation {
                     std::string_view unit) {
     if (sane(v)) return;
     add(body.where, path,
-        path.substr(path.rfind('.') + 1) + " must be finite and at most " + number(kMagnitude) +
+        path.substr(path.rfind('.') + 1) + " must be finite and at most " + digits(kMagnitude) +
             " " + std::string(unit));
   }
 
   void check_quaternion(const BodyDef& body, const std::string& path, const Quat& q) {
     if (!q.coeffs().allFinite() || !is_unit(q.norm()))
-      add(body.where, path, "orientation must be a unit quaternion, has norm " + number(q.norm()));
+      add(body.where, path, "orientation must be a unit quaternion, has norm " + digits(q.norm()));
   }
 
   void check_material(const BodyDef& body, const std::string& path) {
     const Material& m = body.material;
     if (!(m.friction >= 0 && m.friction <= kMagnitude))
       add(body.where, path + ".friction",
-          "friction must be >= 0 and finite, is " + number(m.friction));
+          "friction must be >= 0 and finite, is " + digits(m.friction));
     if (!(m.restitution >= 0 && m.restitution <= 1))
       add(body.where, path + ".restitution",
-          "restitution must be 0 to 1, is " + number(m.restitution));
+          "restitution must be 0 to 1, is " + digits(m.restitution));
+  }
+
+  void check_drag(const BodyDef& body, const std::string& path) {
+    const DragDef& d = body.drag;
+    add(body.where, path + ".linear", coefficient_fault("linear drag", d.linear, "N·s/m"));
+    add(body.where, path + ".quadratic",
+        coefficient_fault("quadratic drag", d.quadratic, "N·s²/m²"));
+    add(body.where, path + ".angular", coefficient_fault("angular drag", d.angular, "N·m·s/rad"));
+    if (body.is_static && (d.linear > 0 || d.quadratic > 0 || d.angular > 0))
+      add(body.where, path, "a static body has no drag");
   }
 
   std::vector<SceneFault> faults_;

@@ -66,8 +66,18 @@ std::string FaultList::where(const YamlNode& node) const {
 }
 
 void FaultList::add(const YamlNode& node, std::string what, const std::string& path) {
-  faults_.push_back({{node.line, node.column}, std::move(what)});
   if (!path.empty()) distrust(path);
+  Placed fault{{node.line, node.column}, std::move(what)};
+  if (std::ranges::find(faults_, fault) == faults_.end()) {
+    if (faults_.size() < kMaxReported)
+      faults_.push_back(std::move(fault));
+    else
+      ++more_;
+  }
+  if (++added_ < kMaxAdded) return;
+  std::vector<SceneFault> found = sorted();
+  found.push_back({file_, "too many faults, the rest is not looked at", {}});
+  throw_faults(found);
 }
 
 void FaultList::place(const std::string& path, const YamlNode& node) {
@@ -94,13 +104,13 @@ void FaultList::add(const std::vector<SceneFault>& found, const YamlNode& root) 
 std::vector<SceneFault> FaultList::sorted() const {
   std::vector<Placed> faults = faults_;
   std::ranges::stable_sort(faults, {}, &Placed::position);
-  faults.erase(std::unique(faults.begin(), faults.end()), faults.end());
   std::vector<SceneFault> result;
   for (Placed& fault : faults)
     result.push_back({file_ + ":" + std::to_string(fault.position.first) + ":" +
                           std::to_string(fault.position.second),
                       std::move(fault.what),
                       {}});
+  if (more_ > 0) result.push_back({file_, "and " + std::to_string(more_) + " more faults", {}});
   return result;
 }
 
@@ -128,6 +138,7 @@ std::optional<Fields> YamlReader::fields(const YamlNode& node, std::string_view 
   Fields result;
   for (const YamlNode::Entry& entry : node.entries) {
     const YamlNode& key = *entry.first;
+    count(key);
     if (key.kind != YamlNode::Kind::scalar)
       faults_.add(key, "a key must be a word, is " + described(key));
     else if (const YamlNode* first = result.find_key(key.text))

@@ -22,15 +22,19 @@
 
 namespace poinsot {
 
-// The faults of one file, and where the values of the scene stand in it.
+// The faults of one file, and where the values of the scene stand in it. However many faults a file
+// has, its report and the work for it are bounded.
 class FaultList {
  public:
+  static constexpr std::size_t kMaxReported = 1000;
+  static constexpr std::size_t kMaxAdded = 100'000;  // aliases may repeat a fault as often
+
   explicit FaultList(std::string file) : file_(std::move(file)) {}
 
   std::string where(const YamlNode& node) const;  // "file:line:col"
 
   // A fault at a node. `path` names the value in the scene that is thereby not to be trusted, so
-  // that validate() does not report the same mistake again.
+  // that validate() does not report the same mistake again. Throws what there is after kMaxAdded.
   void add(const YamlNode& node, std::string what, const std::string& path = {});
 
   void place(const std::string& path, const YamlNode& node);  // the value at `path` stands here
@@ -40,17 +44,19 @@ class FaultList {
   // Takes over what validate() found, at the places of the values.
   void add(const std::vector<SceneFault>& found, const YamlNode& root);
 
-  std::vector<SceneFault> sorted() const;  // in file order, repetitions dropped
+  std::vector<SceneFault> sorted() const;  // in file order; the last says how many more
 
  private:
   struct Placed {
     std::pair<int, int> position;  // line, column
     std::string what;
-    auto operator<=>(const Placed&) const = default;
+    bool operator==(const Placed&) const = default;
   };
 
   std::string file_;
-  std::vector<Placed> faults_;
+  std::vector<Placed> faults_;  // no two alike, at most kMaxReported
+  std::size_t added_ = 0;
+  std::size_t more_ = 0;  // not in faults_
   std::map<std::string, const YamlNode*> places_;
   std::set<std::string> distrusted_;
 };

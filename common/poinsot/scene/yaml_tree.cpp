@@ -11,10 +11,9 @@
 namespace poinsot {
 namespace {
 
-constexpr std::size_t kMaxText = 32u << 20;  // [bytes] of a file
-constexpr std::size_t kMaxNodes = 5'000'000;
-constexpr std::size_t kMaxDepth = 64;  // a scene needs 8
-constexpr int kMaxOpenInLine = 1000;   // brackets opened and not closed in one line
+constexpr std::size_t kMaxValues = 5'000'000;  // keys and aliases are values as well
+constexpr std::size_t kMaxDepth = 64;          // a scene needs 8
+constexpr int kMaxOpenInLine = 1000;           // brackets opened and not closed in one line
 
 [[noreturn]] void fail(const std::string& file, int line, int column, const std::string& what) {
   throw Error(file + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what);
@@ -37,6 +36,7 @@ class TreeBuilder final : public YAML::EventHandler {
     place(node);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    count(mark);
     const YamlNode* node = anchors_.at(anchor);
     for (const Open& open : open_)
       if (open.node == node) refuse(mark, "an alias must not stand inside its own anchor");
@@ -70,11 +70,16 @@ class TreeBuilder final : public YAML::EventHandler {
     fail(file_, mark.line + 1, mark.column + 1, what);
   }
 
+  void count(const YAML::Mark& mark) {
+    if (++values_ > kMaxValues)
+      refuse(mark,
+             "a scene file must not hold more than " + std::to_string(kMaxValues) + " values");
+  }
+
   YamlNode* add(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
                 YAML::anchor_t anchor) {
     if (!tag.empty() && tag != "?" && tag != "!") refuse(mark, "tags ('" + tag + "') have no use");
-    if (tree_.nodes.size() >= kMaxNodes)
-      refuse(mark, "a scene file must not hold more than " + std::to_string(kMaxNodes) + " values");
+    count(mark);
     YamlNode& node = tree_.nodes.emplace_back();
     node.kind = kind;
     node.line = mark.line + 1;
@@ -111,6 +116,7 @@ class TreeBuilder final : public YAML::EventHandler {
   YamlTree& tree_;
   std::vector<Open> open_;
   std::vector<const YamlNode*> anchors_;
+  std::size_t values_ = 0;
   int documents_ = 0;
 };
 
@@ -134,8 +140,8 @@ void check_characters(std::string_view text, const std::string& file) {
 }  // namespace
 
 YamlTree parse_yaml(std::string_view text, const std::string& file) {
-  if (text.size() > kMaxText)
-    throw Error(file + ": a scene file must not be longer than " + std::to_string(kMaxText) +
+  if (text.size() > kMaxYamlText)
+    throw Error(file + ": a scene file must not be longer than " + std::to_string(kMaxYamlText) +
                 " bytes");
   check_characters(text, file);
   YamlTree tree;

@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include <vector>
 
 namespace poinsot {
+
+inline constexpr std::size_t kMaxYamlText = 32u << 20;  // [bytes] of a file
 
 struct YamlNode {
   enum class Kind { nothing, scalar, list, map };

@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "poinsot/base/limits.h"
 #include "poinsot/wire/checks.h"
 #include "poinsot/wire/convert.h"
 
@@ -5,14 +10,16 @@ namespace poinsot {
 namespace {
 
 constexpr FrameFlag kAllFlags =
-    FrameFlag::body_quarantined | FrameFlag::inbox_full | FrameFlag::overrun;
+    FrameFlag::body_quarantined | FrameFlag::inbox_full | FrameFlag::overrun | FrameFlag::stiff;
 
-void assign(msg::v1::LayerTime& out, const Elapsed& in) {
+constexpr auto kLastMethod = static_cast<std::uint8_t>(kMethodNames.back().value);
+
+void assign(msg::v2::LayerTime& out, const Elapsed& in) {
   out.wall_s(in.wall_s);
   out.cpu_s(in.cpu_s);
 }
 
-Elapsed time(Checks& checks, const msg::v1::LayerTime& in, std::string_view name) {
+Elapsed time(Checks& checks, const msg::v2::LayerTime& in, std::string_view name) {
   checks.number(in.wall_s(), name);
   checks.number(in.cpu_s(), name);
   return {in.wall_s(), in.cpu_s()};
@@ -23,12 +30,27 @@ double finite(Checks& checks, double value, std::string_view name) {
   return value;
 }
 
+void read_methods(Checks& checks, const std::vector<std::uint8_t>& in, std::vector<Method>& out) {
+  checks.require(in.size() <= kMaxBodies,
+                 "body_methods: more than " + std::to_string(kMaxBodies) + " in one report");
+  if (!checks.ok()) return;
+  const auto unknown =
+      std::ranges::find_if(in, [](std::uint8_t method) { return method > kLastMethod; });
+  if (unknown != in.end())
+    return checks.require(false, "body_methods " + std::to_string(*unknown) + " is unknown");
+  out.resize(in.size());
+  std::ranges::transform(in, out.begin(),
+                         [](std::uint8_t method) { return static_cast<Method>(method); });
+}
+
 }  // namespace
 
-std::string to_message(const RunReport& in, msg::v1::RunStatus& out) {
+std::string to_message(const RunReport& in, msg::v2::RunStatus& out) {
+  if (in.body_methods.size() > kMaxBodies)
+    return "body_methods: more than " + std::to_string(kMaxBodies) + " in one report";
   out.session(in.session);
   out.epoch(in.epoch);
-  out.state(static_cast<msg::v1::RunStateKind>(in.state));
+  out.state(static_cast<msg::v2::RunStateKind>(in.state));
   out.frame_index(in.frame.frame);
   out.sim_time(in.frame.sim_time);
   out.bodies(in.frame.bodies);
@@ -38,6 +60,13 @@ std::string to_message(const RunReport& in, msg::v1::RunStatus& out) {
   out.energy_error(in.frame.energy_error);
   out.push_out_energy(in.frame.push_out_energy);
   out.max_penetration(in.frame.max_penetration);
+  out.position_error(in.frame.position_error);
+  out.orientation_error(in.frame.orientation_error);
+  out.momentum_error(in.frame.momentum_error);
+  out.methods(in.frame.methods);
+  out.body_methods().resize(in.body_methods.size());
+  std::ranges::transform(in.body_methods, out.body_methods().begin(),
+                         [](Method method) { return static_cast<std::uint8_t>(method); });
   out.flags(static_cast<std::uint32_t>(in.frame.flags));
   out.frame_rate(in.frame_rate);
   out.real_time_factor(in.real_time_factor);
@@ -54,7 +83,7 @@ std::string to_message(const RunReport& in, msg::v1::RunStatus& out) {
   return {};
 }
 
-std::string from_message(const msg::v1::RunStatus& in, RunReport& out) {
+std::string from_message(const msg::v2::RunStatus& in, RunReport& out) {
   Checks checks;
   out.session = in.session();
   out.epoch = in.epoch();
@@ -68,6 +97,11 @@ std::string from_message(const msg::v1::RunStatus& in, RunReport& out) {
   out.frame.energy_error = finite(checks, in.energy_error(), "energy_error");
   out.frame.push_out_energy = finite(checks, in.push_out_energy(), "push_out_energy");
   out.frame.max_penetration = finite(checks, in.max_penetration(), "max_penetration");
+  out.frame.position_error = finite(checks, in.position_error(), "position_error");
+  out.frame.orientation_error = finite(checks, in.orientation_error(), "orientation_error");
+  out.frame.momentum_error = finite(checks, in.momentum_error(), "momentum_error");
+  out.frame.methods = in.methods();
+  read_methods(checks, in.body_methods(), out.body_methods);
   checks.require((in.flags() & ~static_cast<std::uint32_t>(kAllFlags)) == 0, "flags are unknown");
   out.frame.flags = static_cast<FrameFlag>(in.flags());
   out.frame_rate = finite(checks, in.frame_rate(), "frame_rate");

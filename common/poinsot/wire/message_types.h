@@ -40,7 +40,7 @@ struct MessageType<BodyInfo> {
 };
 template <>
 struct MessageType<RunReport> {
-  using Support = SafeSupport<msg::v1::RunStatusPubSubType>;
+  using Support = SafeSupport<msg::v2::RunStatusPubSubType>;
 };
 template <>
 struct MessageType<WrenchCommand> {

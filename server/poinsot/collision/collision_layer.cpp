@@ -68,9 +68,34 @@ void CollisionLayer::advance_to(double t_end) {
   const FrameTimes frame_times(times_);
   simulation_.start_frame();
   const double t_start = time();
+  if (!may_meet(t_end - t_start)) {
+    advance_apart(t_end);
+    return;
+  }
   const int steps = step_count(t_end - t_start, longest_step_);
   for (int k = 1; k < steps; ++k) advance_substep(t_start + k * ((t_end - t_start) / steps));
   advance_substep(t_end);
+}
+
+bool CollisionLayer::may_meet(double h) {
+  const Stopwatch::WallLap lap(times_.collision.wall_s);
+  return !contacts_->set.contacts().empty() || contacts_->set.may_meet(world(), h);
+}
+
+// Nothing can touch: no sub-steps, no contacts.
+void CollisionLayer::advance_apart(double t_end) {
+  contacts_->set.forget();
+  report_.contacts = 0;
+  report_.max_penetration = 0;
+  integrate(t_end);
+}
+
+void CollisionLayer::integrate(double t_end) {
+  {
+    const Stopwatch::WallLap lap(times_.simulation.wall_s);
+    simulation_.advance_to(t_end);
+  }
+  if (simulation_.quarantined() != quarantined_) rebase_energy();
 }
 
 void CollisionLayer::advance_substep(double t_end) {
@@ -87,11 +112,7 @@ void CollisionLayer::advance_substep(double t_end) {
     report_.impact_loss += finite_or_zero(resolution.resolve_impacts(world(), set, h));
     resolution.resolve_contacts(simulation_, set, h);
   }
-  {
-    const Stopwatch::WallLap lap(times_.simulation.wall_s);
-    simulation_.advance_to(t_end);
-  }
-  if (simulation_.quarantined() != quarantined_) rebase_energy();
+  integrate(t_end);
 
   report_.contacts = 0;
   report_.max_penetration = 0;

@@ -1,5 +1,6 @@
-// The collision layer: inside a frame, equal sub-steps; inside each, contacts are found and
-// resolved and the simulation layer integrates.
+// The collision layer: a frame in which nothing can meet is left to the simulation layer as a
+// whole; otherwise equal sub-steps, and inside each contacts are found and resolved and the
+// simulation layer integrates.
 
 #pragma once
 
@@ -56,7 +57,10 @@ class CollisionLayer {
   const CollisionTimes& times() const { return times_; }
 
  private:
+  bool may_meet(double h);
+  void advance_apart(double t_end);
   void advance_substep(double t_end);
+  void integrate(double t_end);
   void rebase_energy();
   double expected_energy() const;  // [J] from the start, the work and the losses
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "poinsot/collision/proximity.h"
+#include "poinsot/simulation/motion_bound.h"
 
 namespace poinsot {
 namespace {
@@ -22,13 +23,8 @@ std::vector<bool> moving(std::span<const Collider> colliders, const World& world
 // No point of a body within `arm` [m] of its centre of mass is faster in the next h, unless another
 // body strikes it [m/s].
 double top_speed(const World& world, Eigen::Index i, double arm, double h) {
-  const auto k = static_cast<std::size_t>(i);
-  double gain = world.gravity.norm();
-  if (!world.held[k].is_zero()) {
-    const Wrench push = world.held[k].at(rotation(world, i));
-    gain += world.inv_mass[k] * push.force.norm() + arm * (inv_J_W(world, i) * push.torque).norm();
-  }
-  return linear_velocity(world, i).norm() + arm * angular_velocity(world, i).norm() + h * gain;
+  const SpeedBound bound = speed_bound(world, i, h);
+  return bound.v + arm * bound.omega;
 }
 
 double smaller(double a, double b) {
@@ -61,6 +57,35 @@ ContactSet::ContactSet(const Scene& scene, const World& world)
   for (auto* list : {&memories_, &last_memories_}) list->reserve(8 * colliders_.size());
 }
 
+bool ContactSet::may_meet(const World& world, double h) {
+  if (colliders_.empty()) return false;
+  place(world, h);
+  for (const ColliderPair& pair : broad_phase_.pairs(boxes_, reach_))
+    if (may_touch(pair)) return true;
+  return false;
+}
+
+void ContactSet::forget() {
+  contacts_.clear();
+  memories_.clear();
+}
+
+bool ContactSet::may_touch(const ColliderPair& pair) const {
+  const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+  if (std::isinf(colliders_[a].size)) return reaches(boxes_[b], a);
+  if (std::isinf(colliders_[b].size)) return reaches(boxes_[a], b);
+  return boxes_[a].overlaps(boxes_[b]);
+}
+
+// Half-spaces have no box: whether one's lowest corner is under the plane.
+bool ContactSet::reaches(const Aabb& box, std::size_t half_space) const {
+  const HalfSpace& plane = std::get<HalfSpace>(colliders_[half_space].shape);
+  const Pose& pose = poses_[half_space];
+  const Vec3 n = pose.q * plane.normal;
+  const Vec3 lowest = (n.array() > 0).select(box.low, box.high);
+  return n.dot(lowest - pose.c) <= plane.offset;
+}
+
 void ContactSet::find(const World& world, double h) {
   std::swap(contacts_, last_contacts_);
   std::swap(memories_, last_memories_);
@@ -70,8 +95,7 @@ void ContactSet::find(const World& world, double h) {
   Manifold manifold;
   for (const ColliderPair& pair : broad_phase_.pairs(boxes_, reach_)) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
-    const bool plane = std::isinf(colliders_[a].size) || std::isinf(colliders_[b].size);
-    if (!plane && !boxes_[a].overlaps(boxes_[b])) continue;
+    if (!may_touch(pair)) continue;
     const double size = smaller(colliders_[a].size, colliders_[b].size);
     const double margin = def_.contact_margin * size + travel_[a] + travel_[b];
     find_manifold(colliders_[a], poses_[a], colliders_[b], poses_[b], margin, manifold);

@@ -30,6 +30,11 @@ class ContactSet {
   // the last call keeps its impulses, scaled to h, and its approach.
   void find(const World& world, double h);
 
+  // Whether any two bodies may come within the contact margin in the next h.
+  bool may_meet(const World& world, double h);
+  // No contacts: what find() would leave if nothing met.
+  void forget();
+
   std::span<Contact> contacts() { return contacts_; }
   std::span<const Contact> contacts() const { return contacts_; }
   std::span<ContactMemory> memories() { return memories_; }
@@ -39,6 +44,8 @@ class ContactSet {
 
  private:
   void place(const World& world, double h);
+  bool may_touch(const ColliderPair& pair) const;
+  bool reaches(const Aabb& box, std::size_t half_space) const;
   void add(const World& world, const ColliderPair& pair, const Manifold& manifold);
   void recall(double h);
 

@@ -1,5 +1,5 @@
-// Held wrenches: what clients push, from the frame that accepts a command to its last frame of
-// effect. A zero-order hold: within a frame nothing changes.
+// Held wrenches: what clients and the scene push, from the frame that accepts a command to its last
+// frame of effect. A zero-order hold: within a frame nothing changes.
 //
 // Accepting resolves everything that depends on the moment: the body becomes a column, a point
 // becomes body-fixed, a duration becomes a first and a last frame. Applying only adds up, in the
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "poinsot/base/hash.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/presentation/command_check.h"
 #include "poinsot/protocol/wrench_command.h"
 #include "poinsot/simulation/world.h"
@@ -25,8 +26,8 @@ std::uint64_t frames_of(double duration, double frame_rate);
 
 class HeldWrenches {
  public:
-  // The most wrenches that can be held at once, by all clients together.
-  static constexpr std::size_t kCapacity = 65536;
+  // The most wrenches that can be held at once, by the scene and all clients together.
+  static constexpr std::size_t kCapacity = kMaxHeldWrenches;
 
   explicit HeldWrenches(double frame_rate);
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "poinsot/base/check.h"
+#include "poinsot/presentation/scene_wrenches.h"
 #include "poinsot/presentation/state_hash.h"
 
 namespace poinsot {
@@ -12,6 +14,8 @@ PresentationLayer::PresentationLayer(Scene scene)
   for (Eigen::Index i = 0; i < world().size(); ++i)
     if (world().moves(i)) columns_.push_back(i);
   snapshot_.bodies.resize(columns_.size());
+  body_methods_.resize(columns_.size(), Method::none);
+  hold_scene_wrenches();
   capture();
 }
 
@@ -35,7 +39,15 @@ void PresentationLayer::reset() {
   held_ = HeldWrenches(frame_rate());
   frame_ = 0;
   ++epoch_;
+  hold_scene_wrenches();
   capture();
+}
+
+void PresentationLayer::hold_scene_wrenches() {
+  if (scene_.wrenches.empty()) return;
+  std::vector<Reply> replies;
+  held_.accept(scene_wrenches(scene_, world()), world(), frame_ + 1, epoch_, replies);
+  for (const Reply& reply : replies) POINSOT_CHECK(reply.code == ResultCode::ok);  // validate()
 }
 
 void PresentationLayer::capture() {
@@ -52,7 +64,9 @@ void PresentationLayer::capture() {
   snapshot_.state_hash = state_hash(frame_, collision_, held_);
 
   const CollisionReport& collision = collision_.report();
-  const std::uint32_t quarantined = collision_.simulation().quarantined();
+  const SimulationLayer& simulation = collision_.simulation();
+  const std::uint32_t quarantined = simulation.quarantined();
+  const LocalError error = simulation.local_error();
   report_ = {.frame = frame_,
              .sim_time = time(),
              .bodies = static_cast<std::uint32_t>(columns_.size()),
@@ -62,7 +76,16 @@ void PresentationLayer::capture() {
              .energy_error = collision_.energy_error(),
              .push_out_energy = collision.push_out_energy,
              .max_penetration = collision.max_penetration,
-             .flags = quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none};
+             .position_error = error.position,
+             .orientation_error = error.orientation,
+             .momentum_error = simulation.momentum_error(),
+             .flags = (quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none) |
+                      (simulation.is_stiff() ? FrameFlag::stiff : FrameFlag::none)};
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const Method method = simulation.methods()[static_cast<std::size_t>(columns_[k])];
+    body_methods_[k] = method;
+    ++report_.methods[static_cast<std::size_t>(method)];
+  }
 }
 
 LayerTimes PresentationLayer::times() const {

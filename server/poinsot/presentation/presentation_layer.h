@@ -41,9 +41,12 @@ class PresentationLayer {
   // left to whoever sends it.
   const PoseSnapshot& snapshot() const { return snapshot_; }
   const FrameReport& report() const { return report_; }
+  // What moved each dynamic body in the last frame, in the order of the snapshot.
+  std::span<const Method> body_methods() const { return body_methods_; }
   LayerTimes times() const;  // since construction, over all epochs
 
  private:
+  void hold_scene_wrenches();
   void capture();
 
   Scene scene_;
@@ -53,6 +56,7 @@ class PresentationLayer {
   std::uint32_t epoch_ = 1;
   PoseSnapshot snapshot_;
   FrameReport report_;
+  std::vector<Method> body_methods_;
   std::vector<Eigen::Index> columns_;  // of the snapshot's bodies
   LayerTimes times_;                   // own time, and the inner layers' before the last reset
 };

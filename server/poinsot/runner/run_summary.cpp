@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "poinsot/protocol/methods_text.h"
+
 namespace poinsot {
 namespace {
 
@@ -17,15 +19,13 @@ std::string print(const char* format, Values... values) {
 
 RunSummary summarize(const PresentationLayer& layer, std::uint64_t frames, double wall_s,
                      const Elapsed& publishing) {
-  const FrameReport report = layer.report();
   RunSummary summary;
   summary.frames = frames;
   summary.sim_time = static_cast<double>(frames) / layer.frame_rate();
   summary.wall_s = wall_s;
   summary.times = layer.times();
   summary.times.publishing = publishing;
-  summary.bodies = report.bodies;
-  summary.energy_error = report.energy_error;
+  summary.last = layer.report();
   summary.state_hash = layer.snapshot().state_hash;
   return summary;
 }
@@ -41,21 +41,36 @@ std::string to_text(const RunSummary& s) {
                 t.presentation.cpu_s, t.collision.cpu_s, t.contact.cpu_s);
   text += print("              simulation %.4g s, publishing %.4g s\n", t.simulation.cpu_s,
                 t.publishing.cpu_s);
-  text += print("bodies        %u\n", s.bodies);
-  text += print("energy error  %.3g\n", s.energy_error);
+  const std::string methods = methods_text(s.last);
+  text += print("bodies        %u", s.last.bodies) + (methods.empty() ? "" : ": " + methods) + '\n';
+  text += print("energy error  %.3g\n", s.last.energy_error);
+  text += print("momentum      error %.3g\n", s.last.momentum_error);
+  text += print("local error   %.3g m, %.3g rad (last frame)\n", s.last.position_error,
+                s.last.orientation_error);
   text += print("state hash    %016llx\n", static_cast<unsigned long long>(s.state_hash));
   return text;
 }
 
 std::string to_json(const RunSummary& s) {
   const LayerTimes& t = s.times;
-  return print(
+  std::string methods;
+  for (const Named<Method>& row : kMethodNames) {
+    methods.append(methods.empty() ? "\"" : ", \"").append(row.name).append("\": ");
+    methods += std::to_string(s.last.methods[static_cast<std::size_t>(row.value)]);
+  }
+  std::string text = print(
       "{\"frames\": %llu, \"sim_time\": %.17g, \"wall_s\": %.9g, \"cpu_s\": {\"presentation\": "
-      "%.9g, \"collision\": %.9g, \"contact\": %.9g, \"simulation\": %.9g, \"publishing\": %.9g}, "
-      "\"bodies\": %u, \"state_hash\": \"%016llx\"}\n",
+      "%.9g, \"collision\": %.9g, \"contact\": %.9g, \"simulation\": %.9g, \"publishing\": %.9g}, ",
       static_cast<unsigned long long>(s.frames), s.sim_time, s.wall_s, t.presentation.cpu_s,
-      t.collision.cpu_s, t.contact.cpu_s, t.simulation.cpu_s, t.publishing.cpu_s, s.bodies,
-      static_cast<unsigned long long>(s.state_hash));
+      t.collision.cpu_s, t.contact.cpu_s, t.simulation.cpu_s, t.publishing.cpu_s);
+  text += print(
+      "\"bodies\": %u, \"energy_error\": %.9g, \"momentum_error\": %.9g, \"position_error\": %.9g, "
+      "\"orientation_error\": %.9g, ",
+      s.last.bodies, s.last.energy_error, s.last.momentum_error, s.last.position_error,
+      s.last.orientation_error);
+  text += "\"methods\": {" + methods + "}, ";
+  return text +
+         print("\"state_hash\": \"%016llx\"}\n", static_cast<unsigned long long>(s.state_hash));
 }
 
 }  // namespace poinsot

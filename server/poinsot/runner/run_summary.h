@@ -14,8 +14,7 @@ struct RunSummary {
   double sim_time = 0;       // [s] that these frames took in the scene
   double wall_s = 0;         // [s] from the first frame to the last
   LayerTimes times;
-  std::uint32_t bodies = 0;      // dynamic
-  double energy_error = 0;       // [-] of the last epoch
+  FrameReport last;              // of the last frame; its balances are those of the last epoch
   std::uint64_t state_hash = 0;  // of the last frame
 };
 
@@ -27,7 +26,8 @@ RunSummary summarize(const PresentationLayer& layer, std::uint64_t frames, doubl
 std::string to_text(const RunSummary& summary);
 
 // One line, one object: frames, sim_time [s], wall_s, cpu_s {presentation, collision, contact,
-// simulation, publishing}, bodies, state_hash (16 hexadecimal digits).
+// simulation, publishing}, bodies, energy_error, momentum_error, position_error [m],
+// orientation_error [rad], methods {name: bodies}, state_hash (16 hexadecimal digits).
 std::string to_json(const RunSummary& summary);
 
 }  // namespace poinsot

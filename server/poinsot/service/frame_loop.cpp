@@ -29,6 +29,7 @@ FrameLoop::FrameLoop(PresentationLayer& layer, CommandInbox& inbox, Outbox& outb
       paused_(options_.paused),
       epoch_(layer.epoch()) {
   replies_.reserve(CommandInbox::kCapacity);
+  report_.body_methods.reserve(layer_.body_methods().size());
 }
 
 void FrameLoop::run(const std::stop_token& stop) {
@@ -221,21 +222,23 @@ void FrameLoop::report() {
 
 void FrameLoop::report(RunState state) {
   const std::uint64_t full = inbox_.full();
-  RunReport report;
-  report.epoch = layer_.epoch();
-  report.state = state;
-  report.frame = layer_.report();
-  if (full > full_at_last_report_) report.frame.flags = report.frame.flags | FrameFlag::inbox_full;
+  report_.epoch = layer_.epoch();
+  report_.state = state;
+  report_.frame = layer_.report();
+  if (full > full_at_last_report_)
+    report_.frame.flags = report_.frame.flags | FrameFlag::inbox_full;
   if (overruns_ > overruns_at_last_report_)
-    report.frame.flags = report.frame.flags | FrameFlag::overrun;
-  report.frame_rate = layer_.frame_rate();
-  report.real_time_factor = state == RunState::playing ? real_time_factor_ : 0;
-  report.state_hash = layer_.snapshot().state_hash;
-  report.overruns = overruns_;
-  report.commands_accepted = accepted_;
-  report.commands_refused = refused_ + inbox_.refused();
-  report.times = layer_.times();
-  outbox_.push(report);
+    report_.frame.flags = report_.frame.flags | FrameFlag::overrun;
+  const auto methods = layer_.body_methods();
+  report_.body_methods.assign(methods.begin(), methods.end());
+  report_.frame_rate = layer_.frame_rate();
+  report_.real_time_factor = state == RunState::playing ? real_time_factor_ : 0;
+  report_.state_hash = layer_.snapshot().state_hash;
+  report_.overruns = overruns_;
+  report_.commands_accepted = accepted_;
+  report_.commands_refused = refused_ + inbox_.refused();
+  report_.times = layer_.times();
+  outbox_.push(report_);
 
   last_report_ = Clock::now();
   overruns_at_last_report_ = overruns_;

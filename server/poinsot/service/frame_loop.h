@@ -88,6 +88,7 @@ class FrameLoop {
   std::uint64_t refused_ = 0;
 
   using Clock = std::chrono::steady_clock;
+  RunReport report_;  // the last one; its memory is reused
   Clock::time_point last_report_;
   std::uint64_t overruns_at_last_report_ = 0;
   std::uint64_t full_at_last_report_ = 0;

@@ -31,6 +31,7 @@ FramePublisher::FramePublisher(Participant& participant, const std::string& worl
       failures_(std::chrono::seconds(1)) {
   // These change places with the outbox's: the same room on both sides, or the loop would allocate.
   snapshot_.bodies.reserve(scene_.size());
+  report_.body_methods.reserve(scene_.size());
   replies_.reserve(Outbox::kReplies);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }

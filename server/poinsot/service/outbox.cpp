@@ -7,6 +7,7 @@ namespace poinsot {
 Outbox::Outbox(std::size_t bodies) {
   for (PoseSnapshot& snapshot : ring_) snapshot.bodies.reserve(bodies);
   replies_.reserve(kReplies);
+  report_.body_methods.reserve(bodies);
 }
 
 void Outbox::push(const PoseSnapshot& snapshot) {

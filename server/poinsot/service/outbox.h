@@ -26,7 +26,7 @@ class Outbox {
   static constexpr std::size_t kSnapshots = 8;
   static constexpr std::size_t kReplies = 4096;  // more than both inbox queues together
 
-  // Room for snapshots of so many bodies is made beforehand.
+  // Room for snapshots and reports of so many bodies is made beforehand.
   explicit Outbox(std::size_t bodies);
 
   // From the loop, replies from any thread.

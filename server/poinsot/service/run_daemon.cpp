@@ -7,6 +7,7 @@
 #include <ostream>
 #include <utility>
 
+#include "poinsot/protocol/methods_text.h"
 #include "poinsot/service/daemon.h"
 
 namespace poinsot {
@@ -73,13 +74,15 @@ std::string invitation(const Scene& scene, const DaemonOptions& options) {
 }
 
 std::string status_line(const RunReport& r) {
-  char line[256];
+  char line[384];
   std::snprintf(line, sizeof line,
                 "frame %llu  time %.2f s  real-time factor %.3g  bodies %u  contacts %u  "
-                "energy error %.2g",
+                "energy error %.2g  local error %.2g m %.2g rad  momentum error %.2g",
                 static_cast<unsigned long long>(r.frame.frame), r.frame.sim_time,
-                r.real_time_factor, r.frame.bodies, r.frame.contacts, r.frame.energy_error);
+                r.real_time_factor, r.frame.bodies, r.frame.contacts, r.frame.energy_error,
+                r.frame.position_error, r.frame.orientation_error, r.frame.momentum_error);
   std::string text = line;
+  if (const std::string methods = methods_text(r.frame); !methods.empty()) text += "  " + methods;
   if (r.state == RunState::paused) text += "  paused";
   if (r.epoch > 1) text += "  epoch " + std::to_string(r.epoch);
   if (r.overruns > 0) text += "  late frames " + std::to_string(r.overruns);

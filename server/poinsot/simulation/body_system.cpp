@@ -12,10 +12,16 @@ SystemBody system_body(const World& world, Eigen::Index i, const Wrench& contact
                   world.held[k],
                   world.drag.empty() ? DragDef{} : world.drag[k],
                   false,
+                  false,
+                  false,
+                  false,
                   false};
+  const HeldWrench& push = body.push;
   body.push.in_W += contact;
-  body.pushed_in_B = !(body.push.in_B.force.isZero(0) && body.push.in_B.torque.isZero(0) &&
-                       body.push.moment.isZero(0) && body.push.in_W.torque.isZero(0));
+  body.couple_in_W = !push.in_W.torque.isZero(0);
+  body.force_in_B = !push.in_B.force.isZero(0);
+  body.torque_in_B = !push.in_B.torque.isZero(0);
+  body.at_points = !push.moment.isZero(0);
   body.dragged = body.drag.linear > 0 || body.drag.quadratic > 0 || body.drag.angular > 0;
   return body;
 }
@@ -44,7 +50,7 @@ void System::derivative(const SystemState& y, SystemState& dy) const {
 
     Vec3 force = body.push.in_W.force;
     Vec3 torque = Vec3::Zero();
-    if (body.pushed_in_B) {
+    if (body.pushed_in_B()) {
       const Wrench w = body.push.at(t.R);
       force = w.force;
       torque = t.R.transpose() * w.torque;

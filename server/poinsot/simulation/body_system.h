@@ -36,8 +36,11 @@ struct SystemBody {
   Vec3 weight;        // [N] in W
   HeldWrench push;    // held and contact wrenches
   DragDef drag;
-  bool pushed_in_B;  // push has a part that turns with the body, or whose torque does
+  // Which parts the push has.
+  bool couple_in_W, force_in_B, torque_in_B, at_points;
   bool dragged;
+
+  bool pushed_in_B() const { return couple_in_W || force_in_B || torque_in_B || at_points; }
 };
 
 // Body i with what acts on it from now on; `contact` about c in W.

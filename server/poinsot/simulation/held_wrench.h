@@ -10,6 +10,11 @@
 
 namespace poinsot {
 
+// Σ pₖ × Fₖ of M = Σ pₖ Fₖᵀ.
+inline Vec3 axial(const Mat3& m) {
+  return {m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0)};
+}
+
 struct HeldWrench {
   Wrench in_W;                 // sum constant in W: all forces in W, and couples in W, about c
   Wrench in_B;                 // sum constant in B, about c
@@ -29,8 +34,7 @@ struct HeldWrench {
   // The part that depends on the orientation R (B → W) and is linear in it, about c in W.
   Wrench turning(const Mat3& R) const {
     const Mat3 m = R * moment;
-    return {R * in_B.force,
-            R * in_B.torque + Vec3(m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0))};
+    return {R * in_B.force, R * in_B.torque + axial(m)};
   }
 
   // The wrench about c in W at orientation R (B → W).

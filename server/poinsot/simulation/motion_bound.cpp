@@ -82,10 +82,63 @@ double reach_along(const World& world, Eigen::Index i, const RotationBound& boun
   return centre + slack + std::min(2.0, bound.turn_rate(n) * h) * r * kRounding;
 }
 
-SpeedBound speed_bound(const World& world, Eigen::Index i, double s) {
+namespace {
+
+struct Push {
+  double force = 0, torque = 0;  // [N] [N·m] at any orientation
+};
+
+Push largest_push(const World& world, Eigen::Index i) {
   const auto k = static_cast<std::size_t>(i);
-  const double smallest = static_cast<double>(world.principal_axes[k].moments[0]);
-  return {s / std::sqrt(world.mass[k]) * kRounding, s / std::sqrt(smallest) * kRounding};
+  const HeldWrench& held = world.held[k];
+  Push push{world.mass[k] * world.gravity.norm(), 0};
+  if (held.is_zero()) return push;
+  push.force += held.in_W.force.norm() + held.in_B.force.norm();
+  // The axial vector of a matrix is at most √2 times as long as the matrix.
+  push.torque =
+      held.in_W.torque.norm() + held.in_B.torque.norm() + std::sqrt(2.0) * held.moment.norm();
+  return push;
+}
+
+double smallest_moment(const World& world, Eigen::Index i) {
+  return static_cast<double>(world.principal_axes[static_cast<std::size_t>(i)].moments[0]);
+}
+
+double rotational_energy(const World& world, Eigen::Index i) {
+  return 0.5 * angular_velocity(world, i).dot(angular_momentum(world.y, i));
+}
+
+// The energy of all, and what can be added to its root in h.
+SpeedBound coupled_bound(const World& world, const BodySystem& system, Eigen::Index i, double h) {
+  double energy = spring_energy(world, system), growth = 0;
+  for (const Eigen::Index j : system.columns) {
+    const double inv_mass = world.inv_mass[static_cast<std::size_t>(j)];
+    if (!world.moves(j)) continue;
+    const Push push = largest_push(world, j);
+    energy += rotational_energy(world, j) + 0.5 * inv_mass * momentum(world.y, j).squaredNorm();
+    growth +=
+        push.force * push.force * inv_mass + push.torque * push.torque / smallest_moment(world, j);
+  }
+  const double s = (std::sqrt(2 * std::max(energy, 0.0)) + h * std::sqrt(growth)) * kRounding;
+  return {s * std::sqrt(world.inv_mass[static_cast<std::size_t>(i)]),
+          s / std::sqrt(smallest_moment(world, i))};
+}
+
+}  // namespace
+
+SpeedBound speed_bound(const World& world, Eigen::Index i, double h) {
+  const auto k = static_cast<std::size_t>(i);
+  if (!world.systems.empty() && world.system_of[k] != World::kLone)
+    return coupled_bound(world, world.systems[static_cast<std::size_t>(world.system_of[k])], i, h);
+  const Push push = largest_push(world, i);
+  const double v = linear_velocity(world, i).norm() + h * push.force * world.inv_mass[k];
+  const Vec3 L = angular_momentum(world.y, i);
+  if (world.held[k].is_zero() && world.drag.empty())
+    return {v * kRounding, rotation_bound(world.principal_axes[k], rotation(world, i), L).omega};
+  const double smallest = smallest_moment(world, i);
+  const double by_energy = std::sqrt(2 * rotational_energy(world, i) / smallest);
+  return {v * kRounding,
+          (std::min(by_energy, L.norm() / smallest) + h * push.torque / smallest) * kRounding};
 }
 
 }  // namespace poinsot

@@ -53,7 +53,7 @@ struct SpeedBound {
   double omega = 0;  // [rad/s]
 };
 
-// What a body can reach with S [√J] as above.
-SpeedBound speed_bound(const World& world, Eigen::Index i, double s);
+// In the next h [s], unless a contact acts.
+SpeedBound speed_bound(const World& world, Eigen::Index i, double h);
 
 }  // namespace poinsot

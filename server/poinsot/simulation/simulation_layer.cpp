@@ -13,7 +13,7 @@ namespace {
 // A coordinate beyond this is no physics any more; its square is still finite.
 constexpr double kLargest = 1e100;
 // The series stop at rounding; a pair that stands in for them is kept close to it.
-constexpr double kRounding = 1e-16, kStandIn = 1e-12, kDefaultTolerance = 1e-8;
+constexpr double kRounding = 1e-15, kStandIn = 1e-12, kDefaultTolerance = 1e-8;
 constexpr int kMostSeries = 64, kMostSteps = 20000;  // per advance
 // An estimate of the error of fixed steps costs three of them: it is taken now and then.
 constexpr std::uint32_t kEstimateEvery = 16;
@@ -49,7 +49,7 @@ SimulationLayer::SimulationLayer(const Scene& scene)
     : world_(scene),
       kind_(scene.simulation.integrator),
       longest_step_(scene.simulation.step > 0 ? scene.simulation.step
-                                              : std::numeric_limits<double>::infinity()),
+                                              : scene.collision.contact_step),
       tolerance_(tolerance_of(scene.simulation)),
       contact_wrenches_(static_cast<std::size_t>(world_.size())),
       last_good_(world_.y),

@@ -18,6 +18,7 @@
 
 #include "poinsot/simulation/body_system.h"
 #include "poinsot/simulation/local_error.h"
+#include "poinsot/simulation/series_kernels.h"
 
 namespace poinsot {
 
@@ -43,39 +44,51 @@ class TaylorSeries {
                int most_steps, LocalError& error);
 
  private:
-  using Rows = Eigen::Matrix<double, 4, 3>;  // R with a fourth row of zeros: whole vector registers
   template <class T>
   using Series = std::array<T, kMaxOrder + 2>;  // coefficients of 1, t, t², …
+  using Block = Eigen::Map<Eigen::Matrix<double, 4, 3>>;
+  using ConstBlock = Eigen::Map<const Eigen::Matrix<double, 4, 3>>;
 
+  // What the kernels run over lies in blocks of whole vector registers.
   struct Body {
-    Series<Rows> R;
-    Series<Vec3> c, P, m, omega, H;
-    Series<Vec3> force, torque;  // pushes and drag, in W and in B
+    Series<std::array<double, 12>> rows = {};  // R, and m as a fourth row: all are n′ = n × ω + …
+    Series<std::array<double, 8>> flow = {};    // v in W, 0, ω in B, 0
+    Series<std::array<double, 8>> effort = {};  // pushes and drag: force in W, 0, torque in B, 0
+    Series<Vec3> c, H;
     Series<double> W;
     Series<double> speed_squared, speed;  // for quadratic drag
+
+    Block block(std::size_t k) { return Block(rows[k].data()); }
+    auto R(std::size_t k) const { return ConstBlock(rows[k].data()).topRows<3>(); }
+    Vec3 m(std::size_t k) const { return {rows[k][3], rows[k][7], rows[k][11]}; }
+    Eigen::Map<Vec3> v(std::size_t k) { return Eigen::Map<Vec3>(flow[k].data()); }
+    Eigen::Map<Vec3> omega(std::size_t k) { return Eigen::Map<Vec3>(flow[k].data() + 4); }
+    Eigen::Map<Vec3> force(std::size_t k) { return Eigen::Map<Vec3>(effort[k].data()); }
+    Eigen::Map<Vec3> torque(std::size_t k) { return Eigen::Map<Vec3>(effort[k].data() + 4); }
   };
   struct Spring {
     Series<Vec3> d, force, lever_a, lever_b;  // x_a − x_b, on a, R p; in W
     Series<double> squared, length, inverse, inverse_squared, closing, damping, factor;
   };
   struct Scale {
-    double P, m;  // [kg·m/s] [kg·m²/s]
+    double v, m;  // 1/[m/s]², 1/[kg·m²/s]²
   };
 
   void start(const System& system, const SystemState& y);
   bool add_order(const System& system, int k);
-  void find_scales(const System& system, const SystemState& y, double h);
-  double relative_term(const System& system, int k, double h) const;
+  void find_scales(const System& system, double h);
+  double squared_term(const System& system, int k) const;
 
-  static void move_on(const SystemBody& body, Body& series, std::size_t k);
+  void move_on(const SystemBody& body, Body& series, std::size_t k) const;
   static void add_push(const SystemBody& body, Body& series, std::size_t k);
   static bool add_drag(const SystemBody& body, Body& series, std::size_t k);
-  static void add_up(const SystemBody& body, Body& series, std::size_t k);
+  void add_up(const SystemBody& body, Body& series, std::size_t k) const;
   void separate(const SpringLink& link, Spring& spring, std::size_t k) const;
-  bool add_spring(const SpringLink& link, Spring& spring, std::size_t k);
-  void pull(int index, const Vec3& p, const Series<Vec3>& lever, const Series<Vec3>& force,
-            double sign, std::size_t k);
+  bool add_spring(const System& system, const SpringLink& link, Spring& spring, std::size_t k);
+  void pull(const System& system, int index, const Vec3& p, const Series<Vec3>& lever,
+            const Series<Vec3>& force, double sign, std::size_t k);
 
+  SeriesKernels kernels_ = series_kernels();
   std::vector<Body> series_;
   std::vector<Spring> springs_;
   std::vector<Scale> scales_;

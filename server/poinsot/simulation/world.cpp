@@ -128,12 +128,17 @@ Wrench acting_wrench(const World& world, Eigen::Index i) {
   return w;
 }
 
+double spring_energy(const World& world, const BodySystem& system) {
+  double sum = 0;
+  for (const SpringLink& spring : system.springs)
+    sum += spring_energy(spring, spring_end(world, system, spring.a, spring.p_a).x,
+                         spring_end(world, system, spring.b, spring.p_b).x);
+  return sum;
+}
+
 double spring_energy(const World& world) {
   double sum = 0;
-  for (const BodySystem& system : world.systems)
-    for (const SpringLink& spring : system.springs)
-      sum += spring_energy(spring, spring_end(world, system, spring.a, spring.p_a).x,
-                           spring_end(world, system, spring.b, spring.p_b).x);
+  for (const BodySystem& system : world.systems) sum += spring_energy(world, system);
   return sum;
 }
 

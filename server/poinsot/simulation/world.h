@@ -75,7 +75,8 @@ Pose body_pose(const World& world, Eigen::Index i);         // of B in W
 // What acts on body i now, about c, in W: gravity, held wrench, drag and springs [N, N·m].
 Wrench acting_wrench(const World& world, Eigen::Index i);
 
-// Elastic energy of the springs [J].
+// Elastic energy of the springs, of one system or of all [J].
+double spring_energy(const World& world, const BodySystem& system);
 double spring_energy(const World& world);
 
 }  // namespace poinsot

@@ -102,6 +102,29 @@ TEST(StatusText, NamesStateAndFlags) {
   EXPECT_NE(text.find("flags        overrun\n"), std::string::npos) << text;
 }
 
+TEST(StatusText, ShowsTheErrorsAndTheMethodsThatMovedBodies) {
+  RunReport report;
+  report.frame.energy_error = -2e-16;
+  report.frame.position_error = 3.25e-13;
+  report.frame.orientation_error = 1.5e-12;
+  report.frame.momentum_error = 2e-15;
+  report.frame.methods[static_cast<std::size_t>(Method::flight)] = 998;
+  report.frame.methods[static_cast<std::size_t>(Method::taylor)] = 2;
+  report.frame.flags = FrameFlag::stiff;
+  const std::string text = status_text("push_me", report);
+  EXPECT_NE(text.find("error -2e-16, push-out 0 J\n"
+                      "local error  3.25e-13 m, 1.5e-12 rad\n"
+                      "momentum     error 2e-15\n"
+                      "methods      flight 998, taylor 2\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("flags        stiff\n"), std::string::npos) << text;
+}
+
+TEST(StatusText, ShowsNoMethodWhereNothingHasMoved) {
+  EXPECT_NE(status_text("push_me", {}).find("methods      none yet\n"), std::string::npos);
+}
+
 TEST(ListText, GivesNameMassAndShapeOfEachBody) {
   const std::string text = list_text("push_me", {}, sample::bodies());
   EXPECT_NE(text.find("3 bodies\n"), std::string::npos) << text;

@@ -139,11 +139,52 @@ TEST(StatusJson, NamesStateAndFlags) {
   report.state = RunState::paused;
   report.frame.flags = FrameFlag::overrun | FrameFlag::inbox_full;
   report.times.collision.cpu_s = 1.5;
-  const json status = parsed(status_json("push_me", report));
+  const json status = parsed(status_json("push_me", report, {}));
   EXPECT_EQ(status["world"], "push_me");
   EXPECT_EQ(status["state"], "paused");
   EXPECT_EQ(status["flags"], json({"inbox_full", "overrun"}));
   EXPECT_EQ(status["cpu_s"]["collision"], 1.5);
+}
+
+RunReport report_of_two() {
+  RunReport report;
+  report.session = 7;
+  report.frame.methods[static_cast<std::size_t>(Method::flight)] = 1;
+  report.frame.methods[static_cast<std::size_t>(Method::taylor)] = 1;
+  report.body_methods = {Method::taylor, Method::flight};
+  return report;
+}
+
+TEST(StatusJson, CarriesTheErrorsWithAllTheirDigits) {
+  RunReport report;
+  report.frame.position_error = 1e-13 / 3;
+  report.frame.orientation_error = 2e-13 / 3;
+  report.frame.momentum_error = 4e-13 / 3;
+  report.frame.flags = FrameFlag::stiff;
+  const json status = parsed(status_json("push_me", report, {}));
+  EXPECT_EQ(status["position_error"].get<double>(), 1e-13 / 3);
+  EXPECT_EQ(status["orientation_error"].get<double>(), 2e-13 / 3);
+  EXPECT_EQ(status["momentum_error"].get<double>(), 4e-13 / 3);
+  EXPECT_EQ(status["flags"], json({"stiff"}));
+}
+
+TEST(StatusJson, CountsEveryMethodAndNamesTheBodies) {
+  const json status = parsed(status_json("push_me", report_of_two(), sample::bodies()));
+  EXPECT_EQ(status["methods"].size(), kMethodNames.size());
+  EXPECT_EQ(status["methods"]["flight"], 1);
+  EXPECT_EQ(status["methods"]["rk4"], 0);
+  // The table is static.
+  EXPECT_EQ(status["body_methods"], json::parse(R"([{"name": "box", "method": "taylor"},
+                                                    {"name": "big ball", "method": "flight"}])"));
+}
+
+TEST(StatusJson, NumbersTheBodiesWhenTheirNamesAreNotKnown) {
+  const json expected = json::parse(R"([{"index": 0, "method": "taylor"},
+                                        {"index": 1, "method": "flight"}])");
+  RunReport report = report_of_two();
+  EXPECT_EQ(parsed(status_json("push_me", report, {}))["body_methods"], expected);
+  report.session = 8;  // the names are those of the daemon before
+  EXPECT_EQ(parsed(status_json("push_me", report, sample::bodies()))["body_methods"], expected);
 }
 
 TEST(ListJson, GivesNoMassToAStaticBody) {

@@ -196,6 +196,80 @@ TEST(PresentationLayer, AdvancesWithoutAllocatingOnceWarm) {
   EXPECT_EQ(test::allocations() - before, 0u);
 }
 
+// A box of 2 kg that the scene pushes with 3 N from 0.1 s to 0.35 s: frames 7 to 21.
+Scene pushed_box() {
+  Scene scene = test::empty_scene();
+  scene.bodies = {test::box("a", Vec3(0, 0, 0))};
+  WrenchDef def;
+  def.body = std::string("a");
+  def.force = Vec3(3, 0, 0);
+  def.start = 0.1;
+  def.duration = 0.25;
+  scene.wrenches = {def};
+  return scene;
+}
+
+TEST(PresentationLayer, HoldsTheWrenchesOfTheSceneInTheirFrames) {
+  PresentationLayer layer(pushed_box());
+  for (int n = 1; n <= 30; ++n) {
+    layer.advance_frame();
+    const double frames = std::clamp(n - 6, 0, 15);
+    // F t / m, with the rounding of 15 frames of a few sub-steps each.
+    EXPECT_NEAR(layer.snapshot().bodies[0].linear_velocity.x(), 3 * frames / 60 / 2, 1e-14) << n;
+  }
+}
+
+TEST(PresentationLayer, HoldsTheWrenchesOfTheSceneAgainAfterAReset) {
+  PresentationLayer layer(pushed_box()), fresh(pushed_box());
+  hashes(layer, 10);
+  layer.reset();
+  const auto again = hashes(layer, 30);
+  EXPECT_EQ(again, hashes(fresh, 30));
+  EXPECT_NEAR(layer.snapshot().bodies[0].linear_velocity.x(), 0.375, 1e-14);
+}
+
+TEST(PresentationLayer, NoClientClearsTheWrenchesOfTheScene) {
+  PresentationLayer layer(pushed_box());
+  WrenchCommand clear;
+  clear.hold = Hold::clear;
+  for (const std::uint64_t client : {std::uint64_t{1}, UINT64_MAX}) {
+    clear.client = client;
+    clear.seq = 1;
+    EXPECT_EQ(accept(layer, clear).code, ResultCode::ok);
+  }
+  hashes(layer, 30);
+  EXPECT_NEAR(layer.snapshot().bodies[0].linear_velocity.x(), 0.375, 1e-14);
+}
+
+TEST(PresentationLayer, APointOfTheSceneInWIsFixedToTheBodyAtTime0) {
+  // Both act at the body's point (0, 0.5, 0): a quarter turn about z has brought it to (−0.5, 0,
+  // 0).
+  Scene in_W = pushed_box();
+  in_W.bodies[0].pose.c = Vec3(1, 2, 3);
+  in_W.bodies[0].pose.q = Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()));
+  in_W.bodies[0].angular_velocity = Vec3(0, 0, 1);
+  in_W.wrenches[0].start = 0;
+  in_W.wrenches[0].force = Vec3(0, 3, 0);
+  in_W.wrenches[0].point = Vec3(0.5, 2, 3);
+  in_W.wrenches[0].point_frame = PointFrame::world;
+  Scene in_B = in_W;
+  in_B.wrenches[0].point = Vec3(0, 0.5, 0);
+  in_B.wrenches[0].point_frame = PointFrame::body;
+  PresentationLayer first(in_W), second(in_B);
+  hashes(first, 30);
+  hashes(second, 30);
+  const BodyState &a = first.snapshot().bodies[0], &b = second.snapshot().bodies[0];
+  EXPECT_LT(b.angular_velocity.z(), 0.9);  // the arm is there
+  EXPECT_NEAR((a.angular_velocity - b.angular_velocity).norm(), 0, 1e-14);
+}
+
+TEST(PresentationLayer, NamesAMethodForEachDynamicBody) {
+  PresentationLayer layer(falling_boxes());
+  EXPECT_EQ(layer.body_methods().size(), 2u);
+  layer.advance_frame();
+  EXPECT_EQ(layer.body_methods().size(), 2u);
+}
+
 // A client's nonsense is answered and nothing else.
 TEST(PresentationLayer, MalformedCommandsAreAnsweredAndLeaveTheRunUntouched) {
   const std::vector<std::function<void(WrenchCommand&)>> spoilers = {

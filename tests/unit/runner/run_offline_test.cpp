@@ -25,7 +25,7 @@ TEST(RunOffline, EndsAfterTheFramesWithTheHashOfAnyOtherRun) {
   for (int n = 0; n < 90; ++n) layer.advance_frame();
   EXPECT_EQ(summary.frames, 90u);
   EXPECT_EQ(summary.sim_time, 1.5);
-  EXPECT_EQ(summary.bodies, 1u);
+  EXPECT_EQ(summary.last.bodies, 1u);
   EXPECT_EQ(summary.state_hash, layer.snapshot().state_hash);
   EXPECT_GT(summary.wall_s, 0);
 }

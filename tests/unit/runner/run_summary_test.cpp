@@ -15,23 +15,34 @@ RunSummary example() {
   s.times.contact.cpu_s = 2;
   s.times.simulation.cpu_s = 4;
   s.times.publishing.cpu_s = 8;
-  s.bodies = 12;
-  s.energy_error = 1.5e-6;
+  s.last.bodies = 12;
+  s.last.energy_error = 1.5e-6;
+  s.last.momentum_error = 2.5e-14;
+  s.last.position_error = 3.5e-15;
+  s.last.orientation_error = 4.5e-16;
+  s.last.methods = {1, 8, 3};
   s.state_hash = 0xabcdef;
   return s;
 }
 
 TEST(RunSummary, JsonIsOneLineWithTheHashInSixteenDigits) {
-  EXPECT_EQ(to_json(example()),
-            "{\"frames\": 600, \"sim_time\": 10, \"wall_s\": 0.25, \"cpu_s\": {\"presentation\": "
-            "0.5, \"collision\": 1, \"contact\": 2, \"simulation\": 4, \"publishing\": 8}, "
-            "\"bodies\": 12, \"state_hash\": \"0000000000abcdef\"}\n");
+  EXPECT_EQ(
+      to_json(example()),
+      "{\"frames\": 600, \"sim_time\": 10, \"wall_s\": 0.25, \"cpu_s\": {\"presentation\": "
+      "0.5, \"collision\": 1, \"contact\": 2, \"simulation\": 4, \"publishing\": 8}, "
+      "\"bodies\": 12, \"energy_error\": 1.5e-06, \"momentum_error\": 2.5e-14, "
+      "\"position_error\": 3.5e-15, \"orientation_error\": 4.5e-16, \"methods\": {\"none\": 1, "
+      "\"flight\": 8, \"taylor\": 3, \"dop853\": 0, \"dopri5\": 0, \"rosenbrock\": 0, \"rk4\": 0, "
+      "\"semi_implicit_euler\": 0, \"explicit_euler\": 0}, \"state_hash\": "
+      "\"0000000000abcdef\"}\n");
 }
 
 TEST(RunSummary, TextNamesEveryFigure) {
   const std::string text = to_text(example());
-  for (const char* part : {"600", "10 s", "0.25 s", "factor 40", "presentation 0.5 s",
-                           "publishing 8 s", "12", "1.5e-06", "0000000000abcdef"})
+  for (const char* part :
+       {"600", "10 s", "0.25 s", "factor 40", "presentation 0.5 s", "publishing 8 s",
+        "12: none 1, flight 8, taylor 3\n", "energy error  1.5e-06\n",
+        "momentum      error 2.5e-14\n", "3.5e-15 m, 4.5e-16 rad", "0000000000abcdef"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 

@@ -1,6 +1,7 @@
 // convex_hull(): a polyhedron whatever the order, repetition and rounding of the points.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -50,6 +51,17 @@ bool same(const Convex& a, const Convex& b) {
          std::ranges::equal(a.faces, b.faces, [](const auto& f, const auto& g) {
            return f.loop == g.loop && f.normal == g.normal && f.offset == g.offset;
          });
+}
+
+TEST(ConvexHull, TakesAnyNumberOfRepeatedPoints) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < 50'000; ++k)
+    for (const Vec3& corner : cube_corners()) points.push_back(corner);
+  const auto start = std::chrono::steady_clock::now();
+  const Convex hull = convex_hull(points);
+  // Time grows with the number of points, not with its square: that would be minutes.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+  EXPECT_TRUE(same(hull, convex_hull(cube_corners())));
 }
 
 TEST(ConvexHull, OfACubeHasSixSquaresCounterClockwiseSeenFromOutside) {

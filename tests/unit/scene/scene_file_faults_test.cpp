@@ -1,5 +1,7 @@
 // Malformed scenes: each gets exactly its message, at its place.
 
+#include <chrono>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -41,8 +43,20 @@ std::string of(const std::string& shape) {
   return "bodies:\n  - {name: a, shape: {" + shape + "}, density: 1}\n";
 }
 
+// A spring or a wrench on line 4 from column 5, on the bodies 'box', 'ball' and 'wall'.
+const std::string kBodies =
+    "bodies: [{name: box, density: 1, shape: {sphere: 1}, position: [1, 2, 3]},\n"
+    "  {name: ball, density: 1, shape: {sphere: 1}}, {name: wall, static: true}]\n";
+std::string spring(const std::string& keys) {
+  return kBodies + "springs:\n  - {" + keys + "}\n";
+}
+std::string wrench(const std::string& keys) {
+  return kBodies + "wrenches:\n  - {" + keys + "}\n";
+}
+
 const std::string kKnown =
-    ", known here: world, presentation, collision, simulation, allow_overlap, bodies";
+    ", known here: world, presentation, collision, simulation, allow_overlap, bodies, springs, "
+    "wrenches";
 
 const std::vector<Malformed> kMalformed = {
     // The whole
@@ -69,10 +83,7 @@ const std::vector<Malformed> kMalformed = {
      "s.yaml:1:16: allow_overlap must be true or false, is 'yes'"},
 
     // Later keys
-    {"Springs", "bodies: []\nsprings: []", "s.yaml:2:1: 'springs' is not supported yet"},
     {"Profile", "bodies: []\nprofile: fast", "s.yaml:2:1: 'profile' is not supported yet"},
-    {"Drag", with("inertia: {ixx: 1, iyy: 1, izz: 1}, drag: {linear: 1}"),
-     "s.yaml:2:59: 'drag' is not supported yet"},
     {"StaticFriction", with("shape: {sphere: 1}, material: {static_friction: 1}"),
      "s.yaml:2:55: 'static_friction' is not supported yet"},
     {"MeshShape", of("mesh: {file: a.obj}"), "s.yaml:2:23: 'mesh' is not supported yet"},
@@ -81,10 +92,17 @@ const std::vector<Malformed> kMalformed = {
      "s.yaml:2:13: 'threads' is not supported yet"},
     {"LaterSearch", "bodies: []\ncollision: {impact_search: conservative}",
      "s.yaml:2:28: impact_search 'conservative' is not supported yet, known: none"},
-    {"LaterIntegrator", "bodies: []\nsimulation: {integrator: exact}",
-     "s.yaml:2:26: integrator 'exact' is not supported yet, known: rk4, semi_implicit_euler"},
 
     // Layer tables
+    {"UnknownIntegrator", "bodies: []\nsimulation: {integrator: simpson}",
+     "s.yaml:2:26: unknown integrator 'simpson', known: exact, taylor, dop853, dopri5, rk4, "
+     "semi_implicit_euler, explicit_euler"},
+    {"Tolerance", "bodies: []\nsimulation: {tolerance: 0.5}",
+     "s.yaml:2:25: tolerance must be 0 (the integrator's own) or 1e-15 to 0.1, is 0.5"},
+    {"ToleranceNegative", "bodies: []\nsimulation: {tolerance: -1e-9}",
+     "s.yaml:2:25: tolerance must be 0 (the integrator's own) or 1e-15 to 0.1, is -1e-09"},
+    {"ToleranceMisplaced", "bodies: []\ncollision: {tolerance: 1e-9}",
+     "s.yaml:2:13: unknown key 'tolerance' here, it belongs in simulation"},
     {"UnknownSolver", "bodies: []\ncollision: {contact_solver: sequential_impulse}",
      "s.yaml:2:29: unknown contact_solver 'sequential_impulse', did you mean "
      "'sequential_impulses'?"},
@@ -154,6 +172,101 @@ const std::vector<Malformed> kMalformed = {
     {"Misspelt", with("shape: {sphere: 1}, postion: [0, 0, 0]"),
      "s.yaml:2:44: unknown key 'postion', did you mean 'position'?"},
 
+    // Drag
+    {"DragNegative", with("shape: {sphere: 1}, drag: {linear: -1}"),
+     "s.yaml:2:59: linear drag must be 0 to 1e+12 N·s/m, is -1"},
+    {"DragAbsurd", with("shape: {sphere: 1}, drag: {quadratic: 1e13}"),
+     "s.yaml:2:62: quadratic drag must be 0 to 1e+12 N·s²/m², is 1e+13"},
+    {"DragNotANumber", with("shape: {sphere: 1}, drag: {angular: much}"),
+     "s.yaml:2:60: angular must be a finite decimal number, is 'much'"},
+    {"DragOfNoTable", with("shape: {sphere: 1}, drag: 1"),
+     "s.yaml:2:50: drag must be a table of keys, is '1'"},
+    {"DragMisspelt", with("shape: {sphere: 1}, drag: {lineer: 1}"),
+     "s.yaml:2:51: unknown key 'lineer', did you mean 'linear'?"},
+    {"DragOutsideItsTable", with("shape: {sphere: 1}, quadratic: 1"),
+     "s.yaml:2:44: unknown key 'quadratic' here, it belongs in drag"},
+    {"DragOfAStaticBody", "bodies:\n  - {name: a, static: true, drag: {angular: 1}}",
+     "s.yaml:2:35: a static body has no drag"},
+
+    // Springs
+    {"SpringsNoList", "bodies: []\nsprings: {a: box}",
+     "s.yaml:2:10: springs must be a list, is a table"},
+    {"SpringIsAWord", kBodies + "springs: [box]",
+     "s.yaml:3:11: a spring must be a table of keys, is 'box'"},
+    {"SpringWithoutA", spring("stiffness: 1"), "s.yaml:4:5: a spring needs the key 'a'"},
+    {"SpringAEmpty", spring("a: '', stiffness: 1"), "s.yaml:4:9: a must not be empty"},
+    {"SpringAUnknown", spring("a: bal, stiffness: 1"),
+     "s.yaml:4:9: no body 'bal', did you mean 'ball'?"},
+    {"SpringBUnknown", spring("a: box, b: bal, stiffness: 1"),
+     "s.yaml:4:17: no body 'bal', did you mean 'ball'?"},
+    {"SpringWithBothEndsOnOneBody", spring("a: box, b: box, stiffness: 1"),
+     "s.yaml:4:17: a spring must have its ends on two bodies, both are on 'box'"},
+    {"SpringBetweenStatics", spring("a: wall, stiffness: 1"),
+     "s.yaml:4:5: a spring needs an end on a body that moves"},
+    {"SpringOfNothing", spring("a: box, rest_length: 1"),
+     "s.yaml:4:5: a spring needs a stiffness or a damping > 0"},
+    {"SpringStiffness", spring("a: box, stiffness: -1"),
+     "s.yaml:4:25: stiffness must be 0 to 1e+12 N/m, is -1"},
+    {"SpringDamping", spring("a: box, stiffness: 1, damping: 1e13"),
+     "s.yaml:4:37: damping must be 0 to 1e+12 N·s/m, is 1e+13"},
+    {"SpringRestLength", spring("a: box, stiffness: 1, rest_length: -0.1"),
+     "s.yaml:4:41: rest_length must be 0 to 1e+12 m, is -0.1"},
+    {"SpringPoint", spring("a: box, point_a: [1e10, 0, 0], stiffness: 1"),
+     "s.yaml:4:23: point_a must be finite and at most 1e+09 m"},
+    {"SpringPointOfTwo", spring("a: box, point_b: [1, 2], stiffness: 1"),
+     "s.yaml:4:23: point_b must be a list of 3 numbers, is a list of 2"},
+    {"SpringMisspelt", spring("a: box, stifness: 1"),
+     "s.yaml:4:14: unknown key 'stifness', did you mean 'stiffness'?"},
+    {"SpringEndsCoincide", spring("a: box, point_b: [1, 2, 3], stiffness: 1, damping: 1"),
+     "s.yaml:4:5: the ends of a spring with a rest_length or a damping must not coincide at time "
+     "0: the direction of its force would be undefined"},
+    {"SpringEndsCoincideAtRest", spring("a: box, point_b: [1, 2, 3], stiffness: 1, rest_length: 2"),
+     "s.yaml:4:5: the ends of a spring with a rest_length or a damping must not coincide at time "
+     "0: the direction of its force would be undefined"},
+    {"SpringUnreadableIsNotMissing", spring("a: box, stiffness: stiff"),
+     "s.yaml:4:25: stiffness must be a finite decimal number, is 'stiff'"},
+    {"SpringOfABodyWithoutAName",
+     "bodies: [{nmae: box, density: 1, shape: {sphere: 1}}]\nsprings: [{a: box, stiffness: 1}]",
+     "s.yaml:1:10: a body needs the key 'name'\n"
+     "s.yaml:1:11: unknown key 'nmae', did you mean 'name'?"},
+
+    // Wrenches
+    {"WrenchesNoList", "bodies: []\nwrenches: 1", "s.yaml:2:11: wrenches must be a list, is '1'"},
+    {"WrenchWithoutBody", wrench("force: [1, 0, 0]"), "s.yaml:4:5: a wrench needs the key 'body'"},
+    {"WrenchOfNothing", wrench("body: box"),
+     "s.yaml:4:5: a wrench needs the key 'force' or 'torque'"},
+    {"WrenchOnNobody", wrench("body: bok, torque: [1, 0, 0]"),
+     "s.yaml:4:12: no body 'bok', did you mean 'box'?"},
+    {"WrenchOnAStaticBody", wrench("body: wall, force: [1, 0, 0]"),
+     "s.yaml:4:12: a wrench acts on a body that moves, 'wall' is static"},
+    {"WrenchForce", wrench("body: box, force: [0, 2e12, 0]"),
+     "s.yaml:4:24: force must be finite and at most 1e+12 N"},
+    {"WrenchTorque", wrench("body: box, torque: [0, 0, -2e12]"),
+     "s.yaml:4:25: torque must be finite and at most 1e+12 N·m"},
+    {"WrenchFrame", wrench("body: box, force: [1, 0, 0], frame: bod"),
+     "s.yaml:4:42: unknown frame 'bod', did you mean 'body'?"},
+    {"WrenchPointFrame", wrench("body: box, force: [1, 0, 0], point: [1, 0, 0], point_frame: com"),
+     "s.yaml:4:66: unknown point_frame 'com', known: center_of_mass, world, body"},
+    {"WrenchPointAtTheCentre",
+     wrench("body: box, force: [1, 0, 0], point: [1, 0, 0], point_frame: center_of_mass"),
+     "s.yaml:4:35: a point has the point_frame world or body"},
+    {"WrenchPointFrameAlone", wrench("body: box, force: [1, 0, 0], point_frame: world"),
+     "s.yaml:4:35: point_frame needs the key 'point'"},
+    {"WrenchPoint", wrench("body: box, force: [1, 0, 0], point: [0, 0, 2e9]"),
+     "s.yaml:4:42: point must be finite and at most 1e+09 m"},
+    {"WrenchWorldPointLater",
+     wrench("body: box, force: [1, 0, 0], point: [1, 0, 0], point_frame: world, start: 1"),
+     "s.yaml:4:66: a point in the world becomes fixed to the body at time 0: with a start > 0 it "
+     "must be given in the body"},
+    {"WrenchStart", wrench("body: box, force: [1, 0, 0], start: -1"),
+     "s.yaml:4:42: start must be 0 to 1e+09 s, is -1"},
+    {"WrenchDuration", wrench("body: box, force: [1, 0, 0], duration: 0"),
+     "s.yaml:4:45: duration must be > 0 s and at most 1e+09 s, is 0"},
+    {"WrenchDurationAbsurd", wrench("body: box, force: [1, 0, 0], duration: 2e9"),
+     "s.yaml:4:45: duration must be > 0 s and at most 1e+09 s, is 2e+09"},
+    {"WrenchWithAWordOfThePush", wrench("body: box, force: [1, 0, 0], for: 1"),
+     "s.yaml:4:35: unknown key 'for', did you mean 'force'?"},
+
     // Orientations
     {"QuaternionAsList", with("shape: {sphere: 1}, orientation: [0, 0, 0, 1]"),
      "s.yaml:2:57: orientation must be {x, y, z, w} or {rpy: [roll, pitch, yaw]}: a bare list does "
@@ -210,7 +323,7 @@ bodies:
     mass: -2
     shape: {capsule: {radius: 1, lenght: 2}}
     orientation: {x: 0, y: 0, z: 0, w: 0}
-springs: []
+profile: fast
 )"),
             "s.yaml:1:26: unknown integrator 'rk5', did you mean 'rk4'?\n"
             "s.yaml:4:18: box size z must be > 0 m and at most 1e+12 m, is -1\n"
@@ -220,7 +333,7 @@ springs: []
             "s.yaml:9:22: capsule needs the key 'length'\n"
             "s.yaml:9:34: unknown key 'lenght', did you mean 'length'?\n"
             "s.yaml:10:18: orientation must not be the zero quaternion\n"
-            "s.yaml:11:1: 'springs' is not supported yet");
+            "s.yaml:11:1: 'profile' is not supported yet");
 }
 
 TEST(SceneFaults, OfAnAliasAreReportedOnce) {
@@ -228,6 +341,56 @@ TEST(SceneFaults, OfAnAliasAreReportedOnce) {
                     "  - {name: a, shape: &s {sphere: x}, density: 1}\n"
                     "  - {name: b, shape: *s, density: 1}\n"),
             "s.yaml:2:34: sphere must be a finite decimal number, is 'x'");
+}
+
+TEST(SceneFaults, OfSpringsAndWrenchesComeWithTheOthers) {
+  EXPECT_EQ(refusal(R"(simulation: {tolerance: 1}
+bodies:
+  - {name: a, shape: {sphere: 1}, density: 1, drag: {linear: -1}}
+springs:
+  - {a: a, point_b: [0, 0, 2], stiffness: -1}
+  - {a: a, b: c, stiffness: 1, damping: -1}
+wrenches:
+  - {body: b, force: [0, 0, 1], start: -1}
+)"),
+            "s.yaml:1:25: tolerance must be 0 (the integrator's own) or 1e-15 to 0.1, is 1\n"
+            "s.yaml:3:62: linear drag must be 0 to 1e+12 N·s/m, is -1\n"
+            "s.yaml:5:43: stiffness must be 0 to 1e+12 N/m, is -1\n"
+            "s.yaml:6:15: no body 'c'\n"
+            "s.yaml:6:41: damping must be 0 to 1e+12 N·s/m, is -1\n"
+            "s.yaml:8:12: no body 'b'\n"
+            "s.yaml:8:40: start must be 0 to 1e+09 s, is -1");
+}
+
+// Hostile files -----------------------------------------------------------------------------------
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(SceneFaults, BeyondAThousandAreCounted) {
+  std::string text = "bodies: []\n";
+  for (int i = 0; i < 1234; ++i) text += "key_" + std::to_string(i) + ": 1\n";
+  const auto lines = lines_of(refusal(text));
+  ASSERT_EQ(lines.size(), 1001u);
+  EXPECT_EQ(lines[0], "s.yaml:2:1: unknown key 'key_0'" + kKnown);
+  EXPECT_EQ(lines[1000], "s.yaml: and 234 more faults");
+}
+
+// A few kilobytes that stand for millions of faults; reading them all would take minutes.
+TEST(SceneFaults, MultipliedByAliasesEndTheReading) {
+  std::string text = "bodies:\n  - &a {";
+  for (int i = 0; i < 3000; ++i) text += "key_" + std::to_string(i) + ": 1, ";
+  text += "}\n";
+  for (int i = 0; i < 3000; ++i) text += "  - *a\n";
+  const auto start = std::chrono::steady_clock::now();
+  const auto lines = lines_of(refusal(text));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  ASSERT_EQ(lines.size(), 1002u);
+  EXPECT_EQ(lines[1001], "s.yaml: too many faults, the rest is not looked at");
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ TEST(Validate, ChecksTheTables) {
               s.collision.contact_margin = kNaN;
               s.collision.push_out_speed = -1;
               s.simulation.step = 2;
+              s.simulation.tolerance = kNaN;
               s.simulation.gravity.y() = kNaN;
             }),
             (Faults{"world: world must be 1 to 127 letters, digits, '_' or '-', is 'a/b'",
@@ -64,6 +65,8 @@ TEST(Validate, ChecksTheTables) {
                     "collision.contact_margin: contact_margin must be 0 to 1, is nan",
                     "collision.push_out_speed: push_out_speed must be >= 0 m/s and finite, is -1",
                     "simulation.step: step must be 0 (one per contact step) or 1e-09 to 1 s, is 2",
+                    "simulation.tolerance: tolerance must be 0 (the integrator's own) or 1e-15 to "
+                    "0.1, is nan",
                     "simulation.gravity: gravity must be finite and at most 1e+12 m/s²"}));
 }
 
@@ -113,6 +116,26 @@ TEST(Validate, ChecksStaticBodies) {
               s.bodies[0].shapes.push_back({HalfSpace{}, {}});
             }),
             Faults{"bodies[0].shapes[1].shape: only a static body may have a half_space"});
+}
+
+TEST(Validate, TakesAnyToleranceInItsRange) {
+  for (const double tolerance : {0.0, 1e-15, 1e-8, 1e-1})
+    EXPECT_EQ(faults_after([&](Scene& s) { s.simulation.tolerance = tolerance; }), Faults());
+  for (const double tolerance : {9e-16, 0.11, -1e-8})
+    EXPECT_EQ(faults_after([&](Scene& s) { s.simulation.tolerance = tolerance; }).size(), 1u);
+}
+
+TEST(Validate, ChecksDrag) {
+  EXPECT_EQ(faults_after([](Scene& s) { s.bodies[0].drag = {1, 2, 3}; }), Faults());
+  EXPECT_EQ(faults_after([](Scene& s) {
+              s.bodies[0].drag = {-1, kNaN, 1e13};
+            }),
+            (Faults{"bodies[0].drag.linear: linear drag must be 0 to 1e+12 N·s/m, is -1",
+                    "bodies[0].drag.quadratic: quadratic drag must be 0 to 1e+12 N·s²/m², is nan",
+                    "bodies[0].drag.angular: angular drag must be 0 to 1e+12 N·m·s/rad, is "
+                    "1e+13"}));
+  EXPECT_EQ(faults_after([](Scene& s) { s.bodies[1].drag.quadratic = 1; }),
+            Faults{"bodies[1].drag: a static body has no drag"});
 }
 
 TEST(Validate, ChecksNames) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "poinsot/base/error.h"
+
 namespace poinsot {
 namespace {
 
@@ -71,6 +73,29 @@ TEST(YamlReader, RefusesAValueMultipliedByAliases) {
     for (const YamlNode* q : tree.root->items[2]->items)
       for (const YamlNode* p : q->items) reader.vector(*p, "v");
   });
+}
+
+TEST(YamlReader, CountsTheKeysOfATableEachTimeItIsRead) {
+  const YamlTree tree = parse_yaml("{radius: 1, length: 2}", "s.yaml");
+  FaultList faults("s.yaml");
+  YamlReader reader(faults);
+  int read = 0;
+  const auto read_until_refused = [&] {
+    for (;; ++read) reader.fields(*tree.root, "v", kRoundTable);
+  };
+  EXPECT_THROW(read_until_refused(), Error);
+  EXPECT_EQ(read, 10'000'000 / 3);  // the table and its keys
+}
+
+TEST(FaultList, KeepsAThousandFaultsAndCountsTheRest) {
+  FaultList faults("s.yaml");
+  YamlNode node;
+  for (node.line = 1; node.line <= 1500; ++node.line)
+    for (int twice = 0; twice < 2; ++twice) faults.add(node, "bad");
+  const auto sorted = faults.sorted();
+  ASSERT_EQ(sorted.size(), FaultList::kMaxReported + 1);
+  EXPECT_EQ(sorted.back().where, "s.yaml");
+  EXPECT_EQ(sorted.back().what, "and 1000 more faults");  // what is not kept cannot be compared
 }
 
 }  // namespace

@@ -66,5 +66,13 @@ TEST(YamlTree, SurvivesHostileText) {
             "s.yaml: a scene file must not be longer than 33554432 bytes");
 }
 
+TEST(YamlTree, CountsAliasesAsValues) {
+  std::string text = "- &a 1\n- [*a";
+  for (int i = 0; i < 5'000'000; ++i) text += ",*a";
+  const std::string error = refusal(text + "]\n");
+  EXPECT_NE(error.find("s.yaml:2:"), std::string::npos) << error;
+  EXPECT_NE(error.find("must not hold more than 5000000 values"), std::string::npos) << error;
+}
+
 }  // namespace
 }  // namespace poinsot

@@ -299,6 +299,12 @@ TEST_F(FrameLoopTest, OrderOfArrivalWithinAFrameDoesNotMatter) {
   EXPECT_NE(forwards, hashes_without_commands(20).back());
 }
 
+TEST_F(FrameLoopTest, ReportsAMethodForEachDynamicBody) {
+  start({.paused = true});
+  ask(control(1, 1, ControlAction::step, 2));
+  EXPECT_EQ(outbox_.newest_report().body_methods.size(), 1u);  // the floor is static
+}
+
 TEST_F(FrameLoopTest, CountsAcceptedAndRefusedCommands) {
   start({.paused = true});
   ask(push(1, 1));

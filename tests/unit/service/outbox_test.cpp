@@ -109,6 +109,22 @@ TEST(Outbox, SnapshotsTravelWithoutAllocating) {
   EXPECT_EQ(test::allocations() - before, 0u);
 }
 
+TEST(Outbox, ReportsTravelWithoutAllocating) {
+  if (!test::can_count_allocations()) GTEST_SKIP() << "the sanitizer owns malloc";
+  Outbox outbox(50);
+  RunReport original;
+  original.body_methods.assign(50, Method::flight);
+  RunReport taken;
+  taken.body_methods.reserve(50);
+  const std::size_t before = test::allocations();
+  for (int n = 0; n < 10; ++n) {
+    outbox.push(original);
+    outbox.take(taken);
+  }
+  EXPECT_EQ(test::allocations() - before, 0u);
+  EXPECT_EQ(taken.body_methods, original.body_methods);
+}
+
 // Also for the thread sanitizer.
 TEST(Outbox, LoopAndWriterMeetWithoutLosingReplies) {
   Outbox outbox(10);

@@ -45,7 +45,7 @@ TEST(Invitation, PushesNothingWhereNothingMoves) {
   EXPECT_EQ(invitation(scene, {}).find("push"), std::string::npos);
 }
 
-TEST(StatusLine, ShowsTheSixFiguresAndTroubleOnlyIfThereIsAny) {
+TEST(StatusLine, ShowsTheFiguresAndTroubleOnlyIfThereIsAny) {
   RunReport report;
   report.state = RunState::playing;
   report.epoch = 1;
@@ -54,10 +54,16 @@ TEST(StatusLine, ShowsTheSixFiguresAndTroubleOnlyIfThereIsAny) {
   report.frame.bodies = 5;
   report.frame.contacts = 18;
   report.frame.energy_error = 1.25e-7;
+  report.frame.position_error = 3e-16;
+  report.frame.orientation_error = 2e-15;
+  report.frame.momentum_error = 1e-14;
+  report.frame.methods[static_cast<std::size_t>(Method::flight)] = 3;
+  report.frame.methods[static_cast<std::size_t>(Method::taylor)] = 2;
   report.real_time_factor = 1;
   EXPECT_EQ(status_line(report),
             "frame 120  time 2.00 s  real-time factor 1  bodies 5  contacts 18  "
-            "energy error 1.2e-07");
+            "energy error 1.2e-07  local error 3e-16 m 2e-15 rad  momentum error 1e-14  "
+            "flight 3, taylor 2");
   report.state = RunState::paused;
   report.epoch = 3;
   report.overruns = 7;

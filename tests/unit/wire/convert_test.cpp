@@ -31,7 +31,7 @@ TEST(Convert, ABodyKeepsEveryField) {
   expect_round_trip<msg::v1::BodyDescription>(sample::body_info(4, 9));
 }
 TEST(Convert, AReportKeepsEveryField) {
-  expect_round_trip<msg::v1::RunStatus>(sample::report());
+  expect_round_trip<msg::v2::RunStatus>(sample::report());
 }
 TEST(Convert, AWrenchKeepsEveryField) {
   expect_round_trip<msg::v1::BodyWrench>(sample::wrench());
@@ -51,6 +51,28 @@ TEST(Convert, AFrameIntoAUsedSampleLeavesNothingOfTheOldOne) {
   ASSERT_EQ(to_message(sample::poses(2, 3), wire), "");
   ASSERT_EQ(from_message(wire, back), "");
   expect_same(back, sample::poses(2, 3));
+}
+
+TEST(Convert, AReportIntoAUsedSampleLeavesNothingOfTheOldOne) {
+  RunReport longer = sample::report();
+  longer.body_methods.resize(100, Method::rk4);
+  msg::v2::RunStatus wire;
+  RunReport back;
+  for (const RunReport& report : {longer, sample::report()}) {
+    ASSERT_EQ(to_message(report, wire), "");
+    ASSERT_EQ(from_message(wire, back), "");
+    expect_same(report, back);
+  }
+}
+
+TEST(Convert, EveryMethodKeepsItsNumber) {
+  RunReport report = sample::report();
+  report.body_methods.clear();
+  for (const auto& row : kMethodNames) report.body_methods.push_back(row.value);
+  expect_round_trip<msg::v2::RunStatus>(report);
+  EXPECT_EQ(msg::v2::METHOD_FLIGHT, static_cast<std::uint8_t>(Method::flight));
+  EXPECT_EQ(msg::v2::METHOD_ROSENBROCK, static_cast<std::uint8_t>(Method::rosenbrock));
+  EXPECT_EQ(msg::v2::METHOD_EXPLICIT_EULER, static_cast<std::uint8_t>(Method::explicit_euler));
 }
 
 TEST(Convert, EveryKindOfShapeKeepsItsParameters) {
@@ -129,6 +151,10 @@ TEST(Convert, WhatDoesNotFitIsNotSent) {
   EXPECT_NE(to_message(info, body), "");
   info.shapes = {{Convex{.vertices = std::vector<Vec3>(kMaxVertices + 1), .faces = {}}, {}}};
   EXPECT_NE(to_message(info, body), "");
+  RunReport report = sample::report();
+  report.body_methods.resize(kMaxBodies + 1);
+  msg::v2::RunStatus status;
+  EXPECT_NE(to_message(report, status), "");
   WrenchCommand wrench = sample::wrench();
   wrench.body_name = "\xFF";
   msg::v1::BodyWrench command;
@@ -236,11 +262,16 @@ TEST(Convert, MalformedPosesAreRefusedWithTheReason) {
 }
 
 TEST(Convert, MalformedReportsAreRefusedWithTheReason) {
-  using Wire = msg::v1::RunStatus;
+  using Wire = msg::v2::RunStatus;
   expect_refusals<RunReport, Wire>(
       sample::report(),
-      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v1::RunStateKind>(4)); }},
-       {"flags are unknown", [](Wire& w) { w.flags(8); }},
+      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v2::RunStateKind>(4)); }},
+       {"flags are unknown", [](Wire& w) { w.flags(16); }},
+       {"position_error is not finite", [](Wire& w) { w.position_error(kNaN); }},
+       {"orientation_error is not finite", [](Wire& w) { w.orientation_error(kInfinity); }},
+       {"momentum_error is not finite", [](Wire& w) { w.momentum_error(-kInfinity); }},
+       {"body_methods 9 is unknown", [](Wire& w) { w.body_methods()[2] = 9; }},
+       {"body_methods: more than 131072", [](Wire& w) { w.body_methods().resize(kMaxBodies + 1); }},
        {"energy is not finite", [](Wire& w) { w.energy(kNaN); }},
        {"contact_time is not finite", [](Wire& w) { w.contact_time().cpu_s(kInfinity); }}});
 }
