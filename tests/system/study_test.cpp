@@ -43,6 +43,35 @@ TEST(Study, LeavesATableAndAPicture) {
   EXPECT_NE(svg.text().find("</svg>"), std::string::npos);
 }
 
+// A die that bounces on its corners: each bounce multiplies what two runs differ by.
+TEST(Study, NamesTheHorizonOfAChaoticScene) {
+  const TemporaryFile dice("dice.yaml", R"(
+collision: {contact_step: 0.005}
+bodies:
+  - {name: floor, static: true, shape: {half_space: {normal: [0, 0, 1]}}, material: &m {restitution: 0.9, friction: 0.3}}
+  - {name: die, shape: {box: [1, 1.2, 0.8]}, density: 1000, position: [0, 0, 3], orientation: {rpy: [0.3, 0.5, 0.1]}, angular_velocity: [1, 2, 3], material: *m}
+)");
+  const Words study = {"study", dice.path(), "--time", "60s", "--budget", "20"};
+  const Ended ended = run_daemon(study);
+  EXPECT_EQ(ended.code, 0) << ended.errors;
+  EXPECT_NE(ended.out.find("A reference exists up to t = "), std::string::npos) << ended.out;
+
+  Words in_json = study;
+  in_json.push_back("--json");
+  const Json json = Json::parse(run_daemon(in_json).out);
+  EXPECT_EQ(json["reference"]["ends_by"], "disagreement");
+  EXPECT_GT(json["horizon"], 0.5) << "before the first bounce";
+  EXPECT_LT(json["horizon"], 60);
+  EXPECT_LE(json["reference"]["certificate"]["orientation"], 1e-6);
+}
+
+TEST(Study, FailsWithoutAReference) {
+  const Ended ended = run_daemon({"study", "tennis_racket", "--frames", "60", "--error", "1e-18"});
+  EXPECT_EQ(ended.code, 1) << ended.out;
+  EXPECT_EQ(ended.out, "");
+  EXPECT_NE(ended.errors.find("No reference exists"), std::string::npos) << ended.errors;
+}
+
 TEST(Study, RefusesWhatItDoesNotUnderstand) {
   for (const Words& bad : {Words{"--error", "0"}, Words{"--error", "small"},
                            Words{"--frames", "-1"}, Words{"--time", "soon"}, Words{"--time", "0"},

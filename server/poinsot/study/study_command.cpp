@@ -115,8 +115,11 @@ void run_study(const Scene& scene, const StudyOptions& options, StopSignals& sig
   OutputFile svg("--svg", options.svg);
   const StudyResult result = sweep_until_stopped(scene, sweep_options(scene, options), signals);
 
-  out << (options.json ? to_json(result, options.error) : to_text(result));
-  if (options.error > 0 && !options.json) out << cheapest_text(result, options.error);
+  const bool has_reference = result.horizon > 0 || result.interrupted;
+  if (options.json)
+    out << to_json(result, options.error);
+  else if (has_reference)
+    out << to_text(result) << (options.error > 0 ? cheapest_text(result, options.error) : "");
   out << std::flush;
   if (csv) csv.write(to_csv(result));
   csv.close();
@@ -125,7 +128,7 @@ void run_study(const Scene& scene, const StudyOptions& options, StopSignals& sig
   else if (svg)
     run_gnuplot(plot_script(result), svg.get());
   svg.close();
-  if (result.horizon == 0 && !result.interrupted) throw std::runtime_error(reference_text(result));
+  if (!has_reference) throw std::runtime_error(reference_text(result));
 }
 
 }  // namespace poinsot

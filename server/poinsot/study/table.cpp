@@ -13,12 +13,12 @@ namespace {
 constexpr std::size_t kColumns = 100;
 constexpr double kMicro = 1e-6;
 
-// One digit, rounded up: it is a bound.
+// Two digits, rounded up: it is a bound.
 std::string bound_text(double bound) {
   if (!(bound > 0)) return "0";
   constexpr double kRounding = 1e-9;
-  const double power = std::pow(10, std::floor(std::log10(bound)));
-  return fmt::format("{:.1g}", std::ceil(bound / power * (1 - kRounding)) * power);
+  const double power = std::pow(10, std::floor(std::log10(bound)) - 1);
+  return fmt::format("{:.2g}", std::ceil(bound / power * (1 - kRounding)) * power);
 }
 
 // What is below the certificate is known to be at most that.
@@ -123,7 +123,7 @@ std::string reference_text(const StudyResult& result) {
   if (result.horizon == 0)
     return fmt::format(
         "No reference exists: {} and {}\npart by more than {:.1g} m or {:.1g} rad within the first "
-        "frame.\n",
+        "frame",
         r.name, r.check, r.limit.position, r.limit.orientation);
   std::string text = fmt::format(
       "Reference: {}, certified by {}.\nThey agree to {} m and {} rad.\n", r.name, r.check,

@@ -63,6 +63,20 @@ TEST(StudyCommand, PassesErrorsOfTheWorkOn) {
   EXPECT_THROW(run_study(test::scene({test::floor()}), short_study(), signals, out), Error);
 }
 
+// No double can tell a tenth of this.
+TEST(StudyCommand, FailsWhereThereIsNoReference) {
+  StudyOptions options = short_study();
+  options.error = 1e-18;
+  StopSignals signals;
+  std::ostringstream out;
+  EXPECT_THROW(run_study(tumbling(), options, signals, out), std::runtime_error);
+  EXPECT_EQ(out.str(), "");
+  options.json = true;
+  StopSignals again;
+  EXPECT_THROW(run_study(tumbling(), options, again, out), std::runtime_error);
+  EXPECT_NE(out.str().find("\"frames\":0"), std::string::npos) << out.str();
+}
+
 TEST(StudyCommand, EndsWhenAskedToAndSaysSo) {
   StudyOptions options = short_study();
   options.frames = 100'000'000;

@@ -59,8 +59,8 @@ TEST(Table, ShowsErrorsBelowTheCertificateAsBounds) {
 
 TEST(Table, RoundsACertificateUp) {
   StudyResult result = test::result({});
-  result.reference.certificate = {1.1e-12, 0};
-  EXPECT_NE(reference_text(result).find("agree to 2e-12 m and 0 rad"), std::string::npos)
+  result.reference.certificate = {1.11e-12, 0};
+  EXPECT_NE(reference_text(result).find("agree to 1.2e-12 m and 0 rad"), std::string::npos)
       << reference_text(result);
 }
 
