@@ -24,7 +24,7 @@ Scene tumbling() {
 StudyOptions short_study() {
   StudyOptions options;
   options.frames = 12;
-  options.budget = std::chrono::seconds(10);
+  options.budget = std::chrono::seconds(2);
   return options;
 }
 
