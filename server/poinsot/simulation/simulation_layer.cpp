@@ -13,7 +13,7 @@ namespace {
 // A coordinate beyond this is no physics any more; its square is still finite.
 constexpr double kLargest = 1e100;
 // The series stop at rounding; a pair that stands in for them is kept close to it.
-constexpr double kRounding = 1e-15, kStandIn = 1e-12, kDefaultTolerance = 1e-8;
+constexpr double kRounding = 1e-14, kStandIn = 1e-12, kDefaultTolerance = 1e-8;
 constexpr int kMostSeries = 64, kMostSteps = 20000;  // per advance
 // An estimate of the error of fixed steps costs three of them: it is taken now and then.
 constexpr std::uint32_t kEstimateEvery = 16;

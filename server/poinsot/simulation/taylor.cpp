@@ -67,69 +67,71 @@ void TaylorSeries::prepare(std::size_t bodies, std::size_t springs) {
 void TaylorSeries::start(const System& system, const SystemState& y) {
   for (Eigen::Index i = 0; i < system.size(); ++i) {
     Body& body = series_[static_cast<std::size_t>(i)];
+    SeriesBlock& first = body.at[0];
     const Quat q(y(6, i), y(3, i), y(4, i), y(5, i));
-    body.c[0] = y.block<3, 1>(0, i);
-    body.block(0).topRows<3>() = q.normalized().toRotationMatrix();
-    body.block(0).row(3) = y.block<3, 1>(10, i).transpose();
-    body.v(0) = system.bodies[static_cast<std::size_t>(i)].inv_mass * y.block<3, 1>(7, i);
-    body.W[0] = y(13, i);
-    body.H[0] = y.block<3, 1>(14, i);
+    const Mat3 R = q.normalized().toRotationMatrix();
+    const double inv_mass = system.bodies[static_cast<std::size_t>(i)].inv_mass;
+    for (Eigen::Index column = 0; column < 3; ++column) {
+      double* const at = first.rows.data() + 4 * column;
+      Eigen::Map<Vec3>{at} = R.col(column);
+      at[3] = y(10 + column, i);
+      first.v[static_cast<std::size_t>(column)] = inv_mass * y(7 + column, i);
+      first.c_W[static_cast<std::size_t>(column)] = y(column, i);
+      first.H[static_cast<std::size_t>(column)] = y(14 + column, i);
+    }
+    first.c_W[3] = y(13, i);
   }
   for (std::size_t s = 0; s < system.springs.size(); ++s)
     separate(system.springs[s], springs_[s], 0);
+}
+
+// The same for all steps of an advance.
+void TaylorSeries::bring(const System& system) {
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    const SystemBody& body = system.bodies[i];
+    SeriesBody& acts = series_[i].acts;
+    for (Eigen::Index column = 0; column < 3; ++column) {
+      Eigen::Map<Vec3>(acts.inv_J.data() + 4 * column) = body.inv_J_B.col(column);
+      Eigen::Map<Vec3>(acts.moment.data() + 4 * column) = body.push.moment.col(column);
+    }
+    acts.inv_mass = body.inv_mass;
+    Body::of(acts.push) = body.push.in_W.force;
+    Body::of(acts.steady) = body.push.in_W.force + body.weight;
+    Body::of(acts.couple_W) = body.push.in_W.torque;
+    Body::of(acts.force_B) = body.push.in_B.force;
+    Body::of(acts.torque_B) = body.push.in_B.torque;
+    acts.couple_in_W = body.couple_in_W;
+    acts.force_in_B = body.force_in_B;
+    acts.torque_in_B = body.torque_in_B;
+    acts.at_points = body.at_points;
+    acts.works = body.pushed_in_B() || body.dragged;
+  }
 }
 
 // From the coefficients of tᵏ of the state to those of tᵏ⁺¹.
 bool TaylorSeries::add_order(const System& system, int order) {
   const auto k = static_cast<std::size_t>(order);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
-    const SystemBody& body = system.bodies[i];
-    move_on(body, series_[i], k);
-    add_push(body, series_[i], k);
-    if (body.dragged && !add_drag(body, series_[i], k)) return false;
-    add_up(body, series_[i], k);
+    Body& body = series_[i];
+    if (!system.bodies[i].dragged) {
+      body.squares = kernels_.step(body.acts, body.at.data(), body.effort.data(), order);
+      continue;
+    }
+    kernels_.push(body.acts, body.at.data(), body.effort.data(), order);
+    if (!add_drag(system.bodies[i].drag, body, k)) return false;
+    body.squares = kernels_.integrate(body.acts, body.at.data(), body.effort.data(), order);
   }
   for (std::size_t s = 0; s < system.springs.size(); ++s)
-    if (!add_spring(system, system.springs[s], springs_[s], k)) return false;
+    if (!add_spring(system.springs[s], springs_[s], k)) return false;
+  if (!system.springs.empty())
+    for (std::size_t i = 0; i < system.bodies.size(); ++i)
+      series_[i].squares = kernels_.squares(series_[i].at[k + 1]);
   return true;
 }
 
-// c′ = v, and n′ = n × ω of each row n of R and of m.
-void TaylorSeries::move_on(const SystemBody& body, Body& series, std::size_t k) const {
-  series.omega(k) = body.inv_J_B * series.m(k);
-  series.c[k + 1] = inverse_of_next(k) * series.v(k);
-  kernels_.cross(series.rows[0].data(), series.flow[0].data(), static_cast<int>(k),
-                 series.rows[k + 1].data());
-  series.block(k + 1) *= inverse_of_next(k);
-}
-
-// A force F constant in W is Σ Fᵢ nᵢ in B, and its moment at p is Σ Fᵢ p × nᵢ: linear in R.
-void TaylorSeries::add_push(const SystemBody& body, Body& series, std::size_t k) {
-  auto force = series.force(k);
-  auto torque = series.torque(k);
-  Vec3& H = series.H[k + 1];
-  force.setZero();
-  torque.setZero();
-  H.setZero();
-  const auto R = series.R(k);
-  const HeldWrench& push = body.push;
-  if (body.force_in_B) force = R * push.in_B.force;
-  if (body.couple_in_W) torque = R.transpose() * push.in_W.torque;
-  if (body.torque_in_B) H = inverse_of_next(k) * (R * push.in_B.torque);
-  if (body.at_points) {
-    for (int i = 0; i < 3; ++i) torque += Vec3(push.moment.col(i)).cross(Vec3(R.row(i)));
-    const Mat3 moment = R * push.moment;
-    H += inverse_of_next(k) * axial(moment);
-  }
-  if (k == 0) {
-    torque += push.in_B.torque;
-    H += push.in_W.torque;
-  }
-}
-
-bool TaylorSeries::add_drag(const SystemBody& body, Body& series, std::size_t k) {
-  const DragDef& drag = body.drag;
-  series.force(k) -= drag.linear * series.v(k);
+bool TaylorSeries::add_drag(const DragDef& drag, Body& series, std::size_t k) {
+  auto force = Body::of(series.effort[k].force);
+  force -= drag.linear * series.v(k);
   if (drag.quadratic > 0) {
     double squared = 0;
     for (std::size_t j = 0; j <= k; ++j) squared += series.v(j).dot(series.v(k - j));
@@ -137,46 +139,33 @@ bool TaylorSeries::add_drag(const SystemBody& body, Body& series, std::size_t k)
     if (k == 0 && !(squared > 0)) return false;  // |v| has no series there
     series.speed[k] = square_root(series.speed_squared, series.speed, k);
     for (std::size_t j = 0; j <= k; ++j)
-      series.force(k) -= (drag.quadratic * series.speed[j]) * series.v(k - j);
+      force -= (drag.quadratic * series.speed[j]) * series.v(k - j);
   }
   if (drag.angular > 0) {
-    series.torque(k) -= drag.angular * series.omega(k);
+    Body::of(series.effort[k].torque) -= drag.angular * series.omega(k);
     Vec3 sum = Vec3::Zero();
     for (std::size_t j = 0; j <= k; ++j) sum += series.R(j) * series.omega(k - j);
-    series.H[k + 1] -= (drag.angular * inverse_of_next(k)) * sum;
+    Body::of(series.at[k + 1].H) -= (drag.angular * inverse_of_next(k)) * sum;
   }
   return true;
-}
-
-// v′ = F/M, m′ = m × ω + τ, W′ = F·v + τ·ω; a force constant in W has done F·Δc.
-void TaylorSeries::add_up(const SystemBody& body, Body& series, std::size_t k) const {
-  const double scale = inverse_of_next(k);
-  series.block(k + 1).row(3) += scale * series.torque(k).transpose();
-  series.v(k + 1) = (scale * body.inv_mass) * series.force(k);
-  if (k == 0) series.v(1) += body.inv_mass * (body.weight + body.push.in_W.force);
-  series.W[k + 1] = body.push.in_W.force.dot(series.c[k + 1]);
-  if (!body.pushed_in_B() && !body.dragged) return;
-  series.W[k + 1] +=
-      scale * kernels_.dot(series.effort[0].data(), series.flow[0].data(), static_cast<int>(k));
 }
 
 void TaylorSeries::separate(const SpringLink& link, Spring& spring, std::size_t k) const {
   const Body& a = series_[static_cast<std::size_t>(link.a)];
   spring.lever_a[k] = a.R(k) * link.p_a;
-  spring.d[k] = a.c[k] + spring.lever_a[k];
+  spring.d[k] = a.c(k) + spring.lever_a[k];
   if (link.b == SpringLink::kWorld) {
     if (k == 0) spring.d[k] -= link.p_b;
   } else {
     const Body& b = series_[static_cast<std::size_t>(link.b)];
     spring.lever_b[k] = b.R(k) * link.p_b;
-    spring.d[k] -= b.c[k] + spring.lever_b[k];
+    spring.d[k] -= b.c(k) + spring.lever_b[k];
   }
   if (!link.is_linear()) spring.squared[k] = dot_product(spring.d, spring.d, k);
 }
 
 // F = −(stiffness (1 − rest/r) + damping (d·d′)/r²) d on a, and its opposite on b.
-bool TaylorSeries::add_spring(const System& system, const SpringLink& link, Spring& s,
-                              std::size_t k) {
+bool TaylorSeries::add_spring(const SpringLink& link, Spring& s, std::size_t k) {
   separate(link, s, k + 1);  // d′ is needed too
   if (link.is_linear()) {
     s.force[k] = -link.stiffness * s.d[k];
@@ -192,57 +181,58 @@ bool TaylorSeries::add_spring(const System& system, const SpringLink& link, Spri
     s.force[k].setZero();
     for (std::size_t j = 0; j <= k; ++j) s.force[k] -= s.factor[j] * s.d[k - j];
     if (link.damping > 0)
-      series_[static_cast<std::size_t>(link.a)].W[k + 1] -=
+      series_[static_cast<std::size_t>(link.a)].at[k + 1].c_W[3] -=
           inverse_of_next(k) * product(s.damping, s.closing, k);
   }
-  pull(system, link.a, link.p_a, s.lever_a, s.force, 1, k);
-  if (link.b != SpringLink::kWorld) pull(system, link.b, link.p_b, s.lever_b, s.force, -1, k);
+  pull(link.a, link.p_a, s.lever_a, s.force, 1, k);
+  if (link.b != SpringLink::kWorld) pull(link.b, link.p_b, s.lever_b, s.force, -1, k);
   return true;
 }
 
-void TaylorSeries::pull(const System& system, int index, const Vec3& p, const Series<Vec3>& lever,
+void TaylorSeries::Body::add_to_m(std::size_t k, const Vec3& rate) {
+  for (std::size_t i = 0; i < 3; ++i) at[k].rows[4 * i + 3] += rate[static_cast<Eigen::Index>(i)];
+}
+
+void TaylorSeries::pull(int index, const Vec3& p, const Series<Vec3>& lever,
                         const Series<Vec3>& force, double sign, std::size_t k) {
-  const auto i = static_cast<std::size_t>(index);
-  Body& body = series_[i];
+  Body& body = series_[static_cast<std::size_t>(index)];
   const double scale = sign * inverse_of_next(k);
-  body.v(k + 1) += (scale * system.bodies[i].inv_mass) * force[k];
+  Body::of(body.at[k + 1].v) += (scale * body.acts.inv_mass) * force[k];
   if (p.isZero(0)) return;
   Vec3 in_B = Vec3::Zero(), moment = Vec3::Zero();
   for (std::size_t j = 0; j <= k; ++j) {
     in_B += body.R(j).transpose() * force[k - j];
     moment += lever[j].cross(force[k - j]);
   }
-  body.block(k + 1).row(3) += scale * p.cross(in_B).transpose();
-  body.H[k + 1] += scale * moment;
+  body.add_to_m(k + 1, scale * p.cross(in_B));
+  Body::of(body.at[k + 1].H) += scale * moment;
 }
 
 void TaylorSeries::expand(const System& system, const SystemState& y, int order) {
+  bring(system);
   start(system, y);
   for (order_ = 0; order_ < order; ++order_) add_order(system, order_);
 }
 
 void TaylorSeries::evaluate(const System& system, double h, SystemState& y) const {
-  const auto sum = [&](const auto& coefficient) {
-    auto value = coefficient(static_cast<std::size_t>(order_));
-    for (int k = order_ - 1; k >= 0; --k)
-      value = coefficient(static_cast<std::size_t>(k)) + h * value;
-    return value;
-  };
-  using Rows = Eigen::Matrix<double, 4, 3>;
+  SeriesBlock sum;
   for (Eigen::Index i = 0; i < system.size(); ++i) {
-    const Body& body = series_[static_cast<std::size_t>(i)];
-    const Rows rows = sum([&](std::size_t k) -> Rows { return ConstBlock(body.rows[k].data()); });
-    const Vec3 v = sum([&](std::size_t k) -> Vec3 {
-      return {body.flow[k][0], body.flow[k][1], body.flow[k][2]};
-    });
+    kernels_.evaluate(series_[static_cast<std::size_t>(i)].at.data(), order_, h, sum);
+    const double mass = system.bodies[static_cast<std::size_t>(i)].mass;
     const Eigen::Vector4d before = y.block<4, 1>(3, i);
-    const Quat q(Mat3(rows.topRows<3>()));
-    y.block<3, 1>(0, i) = sum([&](std::size_t k) { return body.c[k]; });
+    Mat3 R;
+    for (Eigen::Index column = 0; column < 3; ++column) {
+      const double* const at = sum.rows.data() + 4 * column;
+      const auto k = static_cast<std::size_t>(column);
+      R.col(column) = Eigen::Map<const Vec3>(at);
+      y(column, i) = sum.c_W[k];
+      y(7 + column, i) = mass * sum.v[k];
+      y(10 + column, i) = at[3];
+      y(14 + column, i) = sum.H[k];
+    }
+    y(13, i) = sum.c_W[3];
+    const Quat q(R);
     y.block<4, 1>(3, i) = (q.coeffs().dot(before) < 0 ? -1 : 1) / q.norm() * q.coeffs();
-    y.block<3, 1>(7, i) = system.bodies[static_cast<std::size_t>(i)].mass * v;
-    y.block<3, 1>(10, i) = rows.row(3).transpose();
-    y(13, i) = sum([&](std::size_t k) { return body.W[k]; });
-    y.block<3, 1>(14, i) = sum([&](std::size_t k) { return body.H[k]; });
   }
 }
 
@@ -251,7 +241,7 @@ LocalError TaylorSeries::last_terms(const System& system, double h) const {
   const double factor = whole_power(std::abs(h), order_);
   const auto k = static_cast<std::size_t>(order_);
   for (std::size_t i = 0; i < system.bodies.size(); ++i)
-    error.raise_to({factor * series_[i].c[k].norm(), factor * series_[i].R(k).norm()});
+    error.raise_to({factor * series_[i].c(k).norm(), factor * series_[i].R(k).norm()});
   return error;
 }
 
@@ -260,30 +250,38 @@ LocalError TaylorSeries::last_terms(const System& system, double h) const {
 void TaylorSeries::find_scales(const System& system, double h) {
   constexpr double kRounding = 2e-16, kTiny = 1e-280;
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
-    Body& body = series_[i];
+    const Body& body = series_[i];
     const double resolution = kRounding / h;
-    const double v = std::max({body.v(0).squaredNorm(), h * h * body.v(1).squaredNorm(),
-                               resolution * resolution * body.c[0].squaredNorm(), kTiny});
-    const double m = std::max({body.m(0).squaredNorm(), h * h * body.m(1).squaredNorm(), kTiny});
-    scales_[i] = {1 / v, 1 / m};
+    const SeriesSquares first = kernels_.squares(body.at[0]), second = body.squares;
+    scales_[i] = {1 / std::max({first.v, h * h * second.v,
+                                resolution * resolution * body.c(0).squaredNorm(), kTiny}),
+                  1 / std::max({first.m, h * h * second.m, kTiny})};
   }
 }
 
-// The square of the coefficients of order k against their scales; a turn counts as it is [rad].
-double TaylorSeries::squared_term(const System& system, int order) const {
-  const auto k = static_cast<std::size_t>(order);
+// The square of the latest coefficients against their scales; a turn counts as it is [rad].
+double TaylorSeries::squared_term(const System& system) const {
   double largest = 0;
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
-    const auto& rows = series_[i].rows[k];
-    const auto& flow = series_[i].flow[k];
-    const double turn = rows[0] * rows[0] + rows[1] * rows[1] + rows[2] * rows[2] +
-                        rows[4] * rows[4] + rows[5] * rows[5] + rows[6] * rows[6] +
-                        rows[8] * rows[8] + rows[9] * rows[9] + rows[10] * rows[10];
-    const double m = rows[3] * rows[3] + rows[7] * rows[7] + rows[11] * rows[11];
-    const double v = flow[0] * flow[0] + flow[1] * flow[1] + flow[2] * flow[2];
-    largest = std::max({largest, turn, v * scales_[i].v, m * scales_[i].m});
+    const SeriesSquares& square = series_[i].squares;
+    largest = std::max({largest, square.R, square.v * scales_[i].v, square.m * scales_[i].m});
   }
   return largest;
+}
+
+// A series of |v| goes on through zero to negative values; nature turns round.
+bool TaylorSeries::passed_standstill(const System& system, double h, const SystemState& y) const {
+  constexpr double kSame = 1e-6;
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    const SystemBody& body = system.bodies[i];
+    if (!(body.drag.quadratic > 0)) continue;
+    double speed = series_[i].speed[static_cast<std::size_t>(order_) - 1];
+    for (std::size_t k = static_cast<std::size_t>(order_) - 1; k-- > 0;)
+      speed = series_[i].speed[k] + h * speed;
+    const double actual = body.inv_mass * y.block<3, 1>(7, static_cast<Eigen::Index>(i)).norm();
+    if (!(std::abs(speed - actual) <= kSame * std::max(actual, series_[i].speed[0]))) return true;
+  }
+  return false;
 }
 
 bool TaylorSeries::advance(const System& system, SystemState& y, double duration, double tolerance,
@@ -292,6 +290,7 @@ bool TaylorSeries::advance(const System& system, SystemState& y, double duration
   constexpr double kBefore = 100;
   const double limit = tolerance * tolerance, limit_before = kBefore * kBefore * limit;
   double left = duration;
+  bring(system);
   while (left > 0) {
     start(system, y);
     double last = 1, before = 1;  // squares of terms at `left`
@@ -303,7 +302,7 @@ bool TaylorSeries::advance(const System& system, SystemState& y, double duration
       h_power *= left * left;
       if (order_ == 1) find_scales(system, left);
       before = last;
-      last = squared_term(system, order_) * h_power;
+      last = squared_term(system) * h_power;
       done = order_ >= 2 && last <= limit && before <= limit_before;
     }
     double h = left;
@@ -314,6 +313,7 @@ bool TaylorSeries::advance(const System& system, SystemState& y, double duration
       if (!(h * most_steps > duration)) return false;
     }
     evaluate(system, h, y);
+    if (passed_standstill(system, h, y)) return false;
     error += last_terms(system, h);
     left -= h;
   }

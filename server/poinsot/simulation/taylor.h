@@ -46,25 +46,29 @@ class TaylorSeries {
  private:
   template <class T>
   using Series = std::array<T, kMaxOrder + 2>;  // coefficients of 1, t, t², …
-  using Block = Eigen::Map<Eigen::Matrix<double, 4, 3>>;
-  using ConstBlock = Eigen::Map<const Eigen::Matrix<double, 4, 3>>;
 
-  // What the kernels run over lies in blocks of whole vector registers.
   struct Body {
-    Series<std::array<double, 12>> rows = {};  // R, and m as a fourth row: all are n′ = n × ω + …
-    Series<std::array<double, 8>> flow = {};    // v in W, 0, ω in B, 0
-    Series<std::array<double, 8>> effort = {};  // pushes and drag: force in W, 0, torque in B, 0
-    Series<Vec3> c, H;
-    Series<double> W;
+    SeriesBody acts = {};
+    std::array<SeriesBlock, kMaxOrder + 2> at = {};
+    std::array<EffortBlock, kMaxOrder + 2> effort = {};
     Series<double> speed_squared, speed;  // for quadratic drag
+    SeriesSquares squares;                // of the latest order
 
-    Block block(std::size_t k) { return Block(rows[k].data()); }
-    auto R(std::size_t k) const { return ConstBlock(rows[k].data()).topRows<3>(); }
-    Vec3 m(std::size_t k) const { return {rows[k][3], rows[k][7], rows[k][11]}; }
-    Eigen::Map<Vec3> v(std::size_t k) { return Eigen::Map<Vec3>(flow[k].data()); }
-    Eigen::Map<Vec3> omega(std::size_t k) { return Eigen::Map<Vec3>(flow[k].data() + 4); }
-    Eigen::Map<Vec3> force(std::size_t k) { return Eigen::Map<Vec3>(effort[k].data()); }
-    Eigen::Map<Vec3> torque(std::size_t k) { return Eigen::Map<Vec3>(effort[k].data() + 4); }
+    Eigen::Map<const Eigen::Matrix<double, 3, 3>, 0, Eigen::OuterStride<4>> R(std::size_t k) const {
+      return Eigen::Map<const Eigen::Matrix<double, 3, 3>, 0, Eigen::OuterStride<4>>(
+          at[k].rows.data());
+    }
+    void add_to_m(std::size_t k, const Vec3& rate);
+    Eigen::Map<const Vec3> c(std::size_t k) const { return of(at[k].c_W); }
+    Eigen::Map<const Vec3> v(std::size_t k) const { return of(at[k].v); }
+    Eigen::Map<const Vec3> omega(std::size_t k) const { return of(at[k].omega); }
+
+    static Eigen::Map<const Vec3> of(const std::array<double, 4>& lanes) {
+      return Eigen::Map<const Vec3>(lanes.data());
+    }
+    static Eigen::Map<Vec3> of(std::array<double, 4>& lanes) {
+      return Eigen::Map<Vec3>(lanes.data());
+    }
   };
   struct Spring {
     Series<Vec3> d, force, lever_a, lever_b;  // x_a − x_b, on a, R p; in W
@@ -74,19 +78,18 @@ class TaylorSeries {
     double v, m;  // 1/[m/s]², 1/[kg·m²/s]²
   };
 
+  void bring(const System& system);
   void start(const System& system, const SystemState& y);
   bool add_order(const System& system, int k);
   void find_scales(const System& system, double h);
-  double squared_term(const System& system, int k) const;
+  double squared_term(const System& system) const;
+  bool passed_standstill(const System& system, double h, const SystemState& y) const;
 
-  void move_on(const SystemBody& body, Body& series, std::size_t k) const;
-  static void add_push(const SystemBody& body, Body& series, std::size_t k);
-  static bool add_drag(const SystemBody& body, Body& series, std::size_t k);
-  void add_up(const SystemBody& body, Body& series, std::size_t k) const;
+  static bool add_drag(const DragDef& drag, Body& series, std::size_t k);
   void separate(const SpringLink& link, Spring& spring, std::size_t k) const;
-  bool add_spring(const System& system, const SpringLink& link, Spring& spring, std::size_t k);
-  void pull(const System& system, int index, const Vec3& p, const Series<Vec3>& lever,
-            const Series<Vec3>& force, double sign, std::size_t k);
+  bool add_spring(const SpringLink& link, Spring& spring, std::size_t k);
+  void pull(int index, const Vec3& p, const Series<Vec3>& lever, const Series<Vec3>& force,
+            double sign, std::size_t k);
 
   SeriesKernels kernels_ = series_kernels();
   std::vector<Body> series_;

@@ -18,7 +18,8 @@ __extension__ using Quad = __float128;
 
 constexpr Real kPi = std::numbers::pi_v<Real>;
 
-// L in the principal frame, Aᵀ R(q)ᵀ L; q need not be unit.
+// L in the principal frame, Aᵀ R(q)ᵀ L; q as it is, for rounding it to unit length would turn m by
+// more than a needle's smallest component can bear.
 template <class T>
 std::array<T, 3> principal_momentum(const PrincipalAxes& body, const Quat& q, const Vec3& L) {
   const T x = q.x(), y = q.y(), z = q.z(), w = q.w();
@@ -280,7 +281,7 @@ TorqueFree::TorqueFree(const PrincipalAxes& body, const Quat& q, const Vec3& L) 
     motion_ = Still{setup.q};
     return;
   }
-  auto m = principal_momentum<Real>(body, setup.q, L);
+  auto m = principal_momentum<Real>(body, q, L);
   constexpr Real kEqual = 1e-19L;  // moments that agree to rounding
   const bool low = I[1] - I[0] <= kEqual * I[1], high = I[2] - I[1] <= kEqual * I[2];
   if (low && high) {
@@ -301,7 +302,7 @@ TorqueFree::TorqueFree(const PrincipalAxes& body, const Quat& q, const Vec3& L) 
   Real apart = separation<Real>(I, m);
   constexpr Real kCancels = 1e-3L;
   if (std::abs(apart) < kCancels * G * G * (I[2] - I[0]) / (I[0] * I[2])) {
-    const auto exact = principal_momentum<Quad>(body, setup.q, L);
+    const auto exact = principal_momentum<Quad>(body, q, L);
     apart = static_cast<Real>(separation<Quad>(I, exact));
     for (std::size_t k = 0; k < 3; ++k) m[k] = static_cast<Real>(exact[k]);
   }
