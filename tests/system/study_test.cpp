@@ -30,7 +30,7 @@ TEST(Study, IsOneJsonObjectWithTheCheapestSetting) {
   EXPECT_EQ(json["horizon"], 1.0);
   EXPECT_GE(json["rows"].size(), 7u);
   EXPECT_TRUE(json["cheapest"].is_object()) << json["cheapest"];
-  for (const Json& row : json["rows"]) EXPECT_GT(row["cpu_us_per_s"]["simulation"], 0) << row;
+  for (const Json& row : json["rows"]) EXPECT_GE(row["cpu_us_per_s"]["simulation"], 0) << row;
 }
 
 TEST(Study, LeavesATableAndAPicture) {

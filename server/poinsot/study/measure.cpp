@@ -1,6 +1,7 @@
 #include "poinsot/study/measure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -39,10 +40,8 @@ class Patience {
   Clock::time_point start_ = Clock::now();
 };
 
-Cost cost_of(const PresentationLayer& layer) {
-  const LayerTimes times = layer.times();
-  const double t = layer.time();
-  return {times.simulation.cpu_s / t, times.collision.cpu_s / t, times.contact.cpu_s / t};
+Cost cost_of(const PresentationLayer& layer, double clock) {
+  return cost_of(layer.times(), layer.time(), layer.frame(), clock);
 }
 
 // A number that is none is as bad as can be.
@@ -73,7 +72,7 @@ std::optional<Measurement> measure(const Scene& scene, const Setting& setting,
   }
   row.methods = used.list();
   row.quarantined = layer.report().quarantined;
-  row.cost = cost_of(layer);
+  row.cost = cost_of(layer, clock_cost());
   row.runs = 1;
   result.state_hash = layer.snapshot().state_hash;
   return result;
@@ -85,6 +84,7 @@ void measure_cost(Row& row, const Scene& scene, std::uint64_t frames, const RunL
   double measured = 0;  // [s]
   while (measured < kEnough || costs.size() < kFewestRuns) {
     const Patience patience(limit);
+    const double clock = clock_cost();
     const Clock::time_point start = Clock::now();
     PresentationLayer layer(changed);
     while (layer.frame() < frames) {
@@ -92,12 +92,34 @@ void measure_cost(Row& row, const Scene& scene, std::uint64_t frames, const RunL
       layer.advance_frame();
     }
     if (layer.frame() < frames) break;
-    costs.push_back(cost_of(layer));
+    costs.push_back(cost_of(layer, clock));
     measured += Seconds(Clock::now() - start).count();
   }
   if (costs.empty()) return;
   row.cost = median(costs);
   row.runs = static_cast<std::uint32_t>(costs.size());
+}
+
+double clock_cost() {
+  std::array<double, 65> readings;
+  for (double& reading : readings) {
+    Elapsed empty;
+    { const Stopwatch::Lap lap(empty); }
+    reading = empty.cpu_s;
+  }
+  const auto middle = readings.begin() + readings.size() / 2;
+  std::nth_element(readings.begin(), middle, readings.end());
+  return *middle;
+}
+
+// The layers share a frame's CPU time, and so the clock's, as they shared its wall time.
+Cost cost_of(const LayerTimes& times, double simulated, std::uint64_t frames, double clock) {
+  const double measured = times.simulation.cpu_s + times.collision.cpu_s + times.contact.cpu_s;
+  if (measured <= 0) return {};
+  const double own = std::max(0.0, measured - static_cast<double>(frames) * clock);
+  const double scale = own / measured / simulated;
+  return {scale * times.simulation.cpu_s, scale * times.collision.cpu_s,
+          scale * times.contact.cpu_s};
 }
 
 Cost median(std::span<Cost> costs) {

@@ -95,6 +95,24 @@ TEST(MeasureCost, KeepsWhatThereIsIfThereIsNoTime) {
   EXPECT_EQ(row.cost.simulation, 7e-6);
 }
 
+TEST(CostOf, IsWithoutTheClockInProportion) {
+  LayerTimes times;
+  times.simulation.cpu_s = 6;
+  times.collision.cpu_s = 3;
+  times.contact.cpu_s = 1;
+  const Cost cost = cost_of(times, 2, 50, 0.1);  // half of the time was the clock's
+  EXPECT_NEAR(cost.simulation, 1.5, 1e-12);
+  EXPECT_NEAR(cost.collision, 0.75, 1e-12);
+  EXPECT_NEAR(cost.contact, 0.25, 1e-12);
+  EXPECT_EQ(cost_of(times, 2, 50, 1).simulation, 0);
+  EXPECT_EQ(cost_of({}, 2, 50, 0.1).simulation, 0);
+}
+
+TEST(ClockCost, IsSmallerThanAFrameOfAnythingAndNotNothing) {
+  EXPECT_GT(clock_cost(), 1e-9);
+  EXPECT_LT(clock_cost(), 1e-4);
+}
+
 TEST(Median, IsTheRunInTheMiddle) {
   std::array<Cost, 5> costs = {Cost{5, 1, 0}, {1, 2, 0}, {3, 3, 0}, {100, 4, 0}, {2, 5, 0}};
   const Cost middle = median(costs);
