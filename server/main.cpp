@@ -1,4 +1,4 @@
-// poinsotd: runs or checks a scene. Options → scene → run → exit code.
+// poinsotd: runs, checks or studies a scene. Options → scene → run → exit code.
 
 #include <cstdlib>
 #include <exception>
@@ -13,6 +13,7 @@
 #include "poinsot/program/signals.h"
 #include "poinsot/runner/load_scene.h"
 #include "poinsot/runner/run_offline.h"
+#include "poinsot/study/study_command.h"
 #ifdef POINSOT_BUS
 #include "poinsot/service/client_command.h"
 #include "poinsot/service/run_daemon.h"
@@ -32,6 +33,7 @@ struct Options {
   std::uint64_t frames = 0;
   std::string trajectory;
   int verbosity = 0;
+  StudyOptions study;
 };
 
 CLI::App* add_run(CLI::App& app, Options& o) {
@@ -54,6 +56,13 @@ CLI::App* add_check(CLI::App& app, Options& o) {
   CLI::App* check = app.add_subcommand("check", "Validate a scene file without running it");
   check->add_option("scene", o.scene, "Scene file, or the name of a shipped scene")->required();
   return check;
+}
+
+CLI::App* add_study(CLI::App& app, Options& o) {
+  CLI::App* study = app.add_subcommand("study", "Speed against error of a scene, without a bus");
+  study->add_option("scene", o.scene, "Scene file, or the name of a shipped scene")->required();
+  add_study_options(*study, o.study);
+  return study;
 }
 
 std::filesystem::path program() {
@@ -126,10 +135,16 @@ int main_of(int argc, const char* const* argv) {
   add_version_option(app);
   Options options;
   const CLI::App* run_command = add_run(app, options);
+  const CLI::App* study_command = add_study(app, options);
   add_check(app, options);
   if (const auto code = parse_command_line(app, argc, argv, std::cout, std::cerr)) return *code;
   try {
-    run_command->parsed() ? run(options, signals) : check(options);
+    if (run_command->parsed())
+      run(options, signals);
+    else if (study_command->parsed())
+      run_study(load_scene(scene_file(options.scene)), options.study, signals, std::cout);
+    else
+      check(options);
     return to_int(ExitCode::ok);
   } catch (const Error& error) {
     std::cerr << error.what() << "\n";

@@ -63,4 +63,16 @@ PrincipalAxes principal_axes(const Mat3& J) {
   return result;
 }
 
+Mat3 inverse_inertia(const PrincipalAxes& body) {
+  Mat3 inverse;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      long double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        sum += body.axes[i][k] * body.axes[j][k] / body.moments[k];
+      inverse(static_cast<int>(i), static_cast<int>(j)) = static_cast<double>(sum);
+    }
+  return inverse;
+}
+
 }  // namespace poinsot

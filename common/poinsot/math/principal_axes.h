@@ -22,4 +22,7 @@ struct PrincipalAxes {
 // J symmetric, in B [kg·m²].
 PrincipalAxes principal_axes(const Mat3& J);
 
+// J⁻¹ in B, each entry right to rounding of the largest; for oblique needles J.inverse() is not.
+Mat3 inverse_inertia(const PrincipalAxes& body);
+
 }  // namespace poinsot

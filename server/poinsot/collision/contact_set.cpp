@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "poinsot/collision/proximity.h"
-#include "poinsot/simulation/motion_bound.h"
 
 namespace poinsot {
 namespace {
@@ -18,13 +17,6 @@ std::vector<bool> moving(std::span<const Collider> colliders, const World& world
   std::vector<bool> result;
   for (const Collider& collider : colliders) result.push_back(world.moves(collider.body));
   return result;
-}
-
-// No point of a body within `arm` [m] of its centre of mass is faster in the next h, unless another
-// body strikes it [m/s].
-double top_speed(const World& world, Eigen::Index i, double arm, double h) {
-  const SpeedBound bound = speed_bound(world, i, h);
-  return bound.v + arm * bound.omega;
 }
 
 double smaller(double a, double b) {
@@ -106,15 +98,17 @@ void ContactSet::find(const World& world, double h) {
 }
 
 void ContactSet::place(const World& world, double h) {
+  speeds_.update(world, h);
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
     const Collider& collider = colliders_[i];
     const Eigen::Index body = collider.body;
     poses_[i] = Pose{position(world.y, body), orientation(world.y, body)} * collider.in_body;
     if (std::isinf(collider.size)) continue;
-    double speed = 0;
-    if (world.moves(body))
-      speed = top_speed(world, body, collider.in_body.c.norm() + collider.bounding_radius, h);
-    travel_[i] = h * speed;
+    // No point of the body is faster in the next h, unless another body strikes it.
+    SpeedBound bound;
+    if (world.moves(body)) bound = speeds_.of(world, body);
+    const double arm = collider.in_body.c.norm() + collider.bounding_radius;
+    travel_[i] = h * (bound.v + arm * bound.omega);
     reach_[i] = kLastingSteps * travel_[i] + 0.05 * collider.size;
     boxes_[i] = bounds(collider, poses_[i]).grown(travel_[i] + def_.contact_margin * collider.size);
   }

@@ -10,7 +10,7 @@
 #include "poinsot/collision/broad_phase.h"
 #include "poinsot/collision/manifold.h"
 #include "poinsot/contact/contact.h"
-#include "poinsot/simulation/world.h"
+#include "poinsot/simulation/motion_bound.h"
 
 namespace poinsot {
 
@@ -53,6 +53,7 @@ class ContactSet {
   std::vector<Material> materials_;  // per body
   std::vector<Collider> colliders_;
   BroadPhase broad_phase_;
+  SpeedBounds speeds_;
 
   // Per collider, for the sub-step at hand.
   std::vector<Pose> poses_;     // of S in W

@@ -89,6 +89,10 @@ void System::derivative(const SystemState& y, SystemState& dy) const {
   }
 }
 
+void normalize_orientations(SystemState& y) {
+  for (Eigen::Index i = 0; i < y.cols(); ++i) y.block<4, 1>(3, i).normalize();
+}
+
 void gather(const StateArray& y, Eigen::Index i, SystemState& s, Eigen::Index j) {
   s.block<10, 1>(0, j) = y.block<10, 1>(0, i);
   s.block<3, 1>(10, j) = orientation(y, i).conjugate() * Vec3(angular_momentum(y, i));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "poinsot/math/elementary.h"
 
@@ -15,37 +16,27 @@ double norm3(const SystemState& y, Eigen::Index row, Eigen::Index i) {
   return y.block<3, 1>(row, i).norm();
 }
 
-// Not a number if one of them is none: std::max would hide it.
-double larger(double a, double b) {
-  return a < b || std::isnan(b) ? b : a;
-}
-
-void normalize(SystemState& y) {
-  for (Eigen::Index i = 0; i < y.cols(); ++i) y.block<4, 1>(3, i).normalize();
-}
-
 }  // namespace
 
 double relative_error(const System& system, const SystemState& from, const SystemState& to,
-                      const SystemState& rate, const SystemState& error, double h) {
-  constexpr double kTiny = 1e-300;
+                      const SystemState& rate, const SystemState& error, double h,
+                      double tolerance) {
+  // What a step may be off by whatever the tolerance: rounding of the coordinates, in m and rad.
+  constexpr double kRounding = 1e-14, kTiny = 1e-300;
+  if (!error.allFinite() || !to.allFinite()) return std::numeric_limits<double>::infinity();
   double largest = 0;
   for (Eigen::Index i = 0; i < system.size(); ++i) {
-    for (const Eigen::Index row : {0, 7, 10}) {
-      const double scale =
-          std::max({norm3(from, row, i), norm3(to, row, i), h * norm3(rate, row, i), kTiny});
-      const double relative = norm3(error, row, i) / scale;
-      // A momentum next to nothing counts by how far it moves the body.
-      if (row == 7) {
-        const double reach = std::max(norm3(from, 0, i), kTiny);
-        const double moved =
-            h * system.bodies[static_cast<std::size_t>(i)].inv_mass * norm3(error, 7, i) / reach;
-        largest = larger(largest, std::min(relative, std::max(moved, 0.0)));
-        continue;
-      }
-      largest = larger(largest, relative);
-    }
-    largest = larger(largest, 2 * error.block<4, 1>(3, i).norm());
+    const SystemBody& body = system.bodies[static_cast<std::size_t>(i)];
+    const auto scale = [&](Eigen::Index row, double least) {
+      return std::max({norm3(from, row, i), norm3(to, row, i), h * norm3(rate, row, i), least});
+    };
+    const double step_rounding = kRounding / (h * tolerance);
+    const double least_P = step_rounding * body.mass * norm3(from, 0, i);
+    const double least_m = step_rounding / std::max(body.inv_J_B.norm(), kTiny);
+    largest = std::max({largest, norm3(error, 0, i) / scale(0, kTiny),
+                        norm3(error, 7, i) / scale(7, std::max(least_P, kTiny)),
+                        norm3(error, 10, i) / scale(10, std::max(least_m, kTiny)),
+                        2 * error.block<4, 1>(3, i).norm()});
   }
   return largest;
 }
@@ -83,11 +74,11 @@ void EmbeddedRungeKutta::step(const EmbeddedPair& pair, const System& system, co
 }
 
 double EmbeddedRungeKutta::error_of_step(const EmbeddedPair& pair, const System& system,
-                                         const SystemState& y, double h) {
+                                         const SystemState& y, double h, double tolerance) {
   const auto measure = [&](EmbeddedPair::Row row, SystemState& error) {
     combine(y, h, row, error);
     error.leftCols(y.cols()) -= y;
-    return relative_error(system, y, end_, k_[0], error, h);
+    return relative_error(system, y, end_, k_[0], error, h, tolerance);
   };
   const double error = measure(pair.error, error_);
   if (pair.error3.empty()) return error;
@@ -127,7 +118,7 @@ bool EmbeddedRungeKutta::advance(const EmbeddedPair& pair, const System& system,
     const bool last = memory.h >= left * (1 - 1e-9);
     const double h = last ? left : memory.h;
     step(pair, system, y, h);
-    const double ratio = error_of_step(pair, system, y, h) / tolerance;
+    const double ratio = error_of_step(pair, system, y, h, tolerance) / tolerance;
     if (!std::isfinite(ratio)) {
       if (h < 1e-12 * duration) return false;
       memory.h = h * pair.least_factor;
@@ -147,15 +138,14 @@ bool EmbeddedRungeKutta::advance(const EmbeddedPair& pair, const System& system,
     memory.stiff_steps = stiff ? memory.stiff_steps + 1 : 0;
     memory.last_error = std::max(ratio, 1e-4);
     const double next = rejected ? std::min(h, h / divisor) : h / divisor;
-    if (!last || next < memory.h) memory.h = next;  // a step cut short by the end tells little
-    if (last && next > memory.h) memory.h = next;
+    if (!last || next > memory.h) memory.h = next;  // a step cut short by the end tells little
     rejected = false;
     LocalError of_step;
     for (Eigen::Index i = 0; i < y.cols(); ++i)
       of_step.raise_to({norm3(error_, 0, i), 2 * error_.block<4, 1>(3, i).norm()});
     error += of_step;
     y = end_.leftCols(y.cols());
-    normalize(y);
+    normalize_orientations(y);
     done = last ? duration : done + h;
     if (memory.stiff_steps >= kStiffSteps) {
       memory.stiff = true;
@@ -184,7 +174,7 @@ void EmbeddedRungeKutta::dense(const EmbeddedPair& pair, const System& system, c
   sum = (sum + 2 * delta - h * (f_end + f_begin).leftCols(y.cols())) * theta;
   sum = (sum + h * f_begin.leftCols(y.cols()) - delta) * (1 - theta);
   at = y + theta * (sum + delta);
-  normalize(at);
+  normalize_orientations(at);
 }
 
 }  // namespace poinsot

@@ -45,9 +45,10 @@ struct StepMemory {
   bool stiff = false;     // for good: integrate it implicitly
 };
 
-// Scales of errors, and norms against them.
+// The largest error of a step of h against its scale; infinite if anything is not finite.
 double relative_error(const System& system, const SystemState& from, const SystemState& to,
-                      const SystemState& rate, const SystemState& error, double h);
+                      const SystemState& rate, const SystemState& error, double h,
+                      double tolerance);
 
 class EmbeddedRungeKutta {
  public:
@@ -64,7 +65,7 @@ class EmbeddedRungeKutta {
   void step(const EmbeddedPair& pair, const System& system, const SystemState& y, double h);
   const SystemState& end() const { return end_; }
   double error_of_step(const EmbeddedPair& pair, const System& system, const SystemState& y,
-                       double h);  // relative to the scales
+                       double h, double tolerance);  // relative to the scales
   // The state at y + θ h of the last step, 0 ≤ θ ≤ 1; of the pair's order less one.
   void dense(const EmbeddedPair& pair, const System& system, const SystemState& y, double h,
              double theta, SystemState& at);

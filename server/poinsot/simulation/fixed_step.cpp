@@ -3,14 +3,6 @@
 #include <cmath>
 
 namespace poinsot {
-namespace {
-
-void normalize(SystemState& y) {
-  for (Eigen::Index i = 0; i < y.cols(); ++i) y.block<4, 1>(3, i).normalize();
-}
-
-}  // namespace
-
 int step_count(double duration, double longest) {
   // A ratio that is whole but for rounding must not cost one more step.
   constexpr double kRounding = 1e-9;
@@ -32,7 +24,7 @@ void FixedStep::step(IntegratorKind kind, const System& system, SystemState& y, 
     default:
       rk4(system, y, h);
   }
-  normalize(y);
+  normalize_orientations(y);
 }
 
 void FixedStep::rk4(const System& system, SystemState& y, double h) {

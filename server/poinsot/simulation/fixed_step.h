@@ -1,4 +1,4 @@
-// Integrators of fixed step: a closed set, each a small struct, one visit per advance.
+// Integrators of fixed step.
 //
 //   name                  order  evaluations of f per step
 //   rk4                   4      4

@@ -108,8 +108,8 @@ double rotational_energy(const World& world, Eigen::Index i) {
   return 0.5 * angular_velocity(world, i).dot(angular_momentum(world.y, i));
 }
 
-// The energy of all, and what can be added to its root in h.
-SpeedBound coupled_bound(const World& world, const BodySystem& system, Eigen::Index i, double h) {
+// S of a system, and what can be added to it in h.
+double coupled_energy(const World& world, const BodySystem& system, double h) {
   double energy = spring_energy(world, system), growth = 0;
   for (const Eigen::Index j : system.columns) {
     const double inv_mass = world.inv_mass[static_cast<std::size_t>(j)];
@@ -119,17 +119,11 @@ SpeedBound coupled_bound(const World& world, const BodySystem& system, Eigen::In
     growth +=
         push.force * push.force * inv_mass + push.torque * push.torque / smallest_moment(world, j);
   }
-  const double s = (std::sqrt(2 * std::max(energy, 0.0)) + h * std::sqrt(growth)) * kRounding;
-  return {s * std::sqrt(world.inv_mass[static_cast<std::size_t>(i)]),
-          s / std::sqrt(smallest_moment(world, i))};
+  return (std::sqrt(2 * std::max(energy, 0.0)) + h * std::sqrt(growth)) * kRounding;
 }
 
-}  // namespace
-
-SpeedBound speed_bound(const World& world, Eigen::Index i, double h) {
+SpeedBound lone_bound(const World& world, Eigen::Index i, double h) {
   const auto k = static_cast<std::size_t>(i);
-  if (!world.systems.empty() && world.system_of[k] != World::kLone)
-    return coupled_bound(world, world.systems[static_cast<std::size_t>(world.system_of[k])], i, h);
   const Push push = largest_push(world, i);
   const double v = linear_velocity(world, i).norm() + h * push.force * world.inv_mass[k];
   const Vec3 L = angular_momentum(world.y, i);
@@ -139,6 +133,22 @@ SpeedBound speed_bound(const World& world, Eigen::Index i, double h) {
   const double by_energy = std::sqrt(2 * rotational_energy(world, i) / smallest);
   return {v * kRounding,
           (std::min(by_energy, L.norm() / smallest) + h * push.torque / smallest) * kRounding};
+}
+
+}  // namespace
+
+void SpeedBounds::update(const World& world, double h) {
+  h_ = h;
+  energies_.clear();
+  for (const BodySystem& system : world.systems)
+    energies_.push_back(coupled_energy(world, system, h));
+}
+
+SpeedBound SpeedBounds::of(const World& world, Eigen::Index i) const {
+  const auto k = static_cast<std::size_t>(i);
+  if (world.systems.empty() || world.system_of[k] == World::kLone) return lone_bound(world, i, h_);
+  const double s = energies_[static_cast<std::size_t>(world.system_of[k])];
+  return {s * std::sqrt(world.inv_mass[k]), s / std::sqrt(smallest_moment(world, i))};
 }
 
 }  // namespace poinsot

@@ -19,6 +19,8 @@
 
 #pragma once
 
+#include <vector>
+
 #include "poinsot/math/principal_axes.h"
 #include "poinsot/simulation/world.h"
 
@@ -53,7 +55,18 @@ struct SpeedBound {
   double omega = 0;  // [rad/s]
 };
 
-// In the next h [s], unless a contact acts.
-SpeedBound speed_bound(const World& world, Eigen::Index i, double h);
+// Speed bounds of all bodies for the next h, unless a contact acts. They hold for the motion
+// itself: an integrator that gains energy (explicit_euler on a stiff spring) may leave them.
+class SpeedBounds {
+ public:
+  // From the present state. Allocates in the first call only.
+  void update(const World& world, double h);
+
+  SpeedBound of(const World& world, Eigen::Index i) const;
+
+ private:
+  double h_ = 0;                  // [s]
+  std::vector<double> energies_;  // per system: S at the end [√J]
+};
 
 }  // namespace poinsot

@@ -30,6 +30,14 @@ constexpr double kC[kStages][kStages] = {
     {0.8083246795921522e+01, -0.7981132988064893e+01, -0.3152159432874371e+02,
      0.1631930543123136e+02, -0.6058818238834054e+01}};
 
+// What a change of one entry is to be small against: its vector, or what that changes by in h.
+double size_of(const SystemState& y, const SystemState& rate, Eigen::Index row, Eigen::Index i,
+               double h) {
+  if (row >= 3 && row < 7) return 1;
+  const Eigen::Index first = row < 3 ? 0 : (row < 10 ? 7 : 10);
+  return std::max(y.block<3, 1>(first, i).norm(), h * rate.block<3, 1>(first, i).norm());
+}
+
 Eigen::Map<Eigen::VectorXd> flat(SystemState& y) {
   return {y.data(), y.size()};
 }
@@ -37,6 +45,7 @@ Eigen::Map<Eigen::VectorXd> flat(SystemState& y) {
 }  // namespace
 
 void Rosenbrock::prepare(Eigen::Index n) {
+  if (rate_.cols() == n) return;
   jacobian_.resize(17 * n, 17 * n);
   matrix_.resize(17 * n, 17 * n);
   factors_ = Eigen::PartialPivLU<Eigen::MatrixXd>(17 * n);
@@ -54,12 +63,7 @@ void Rosenbrock::differentiate(const System& system, const SystemState& y, doubl
   SystemState& changed = g_[0];
   for (Eigen::Index i = 0; i < y.cols(); ++i)
     for (Eigen::Index row = 0; row < 13; ++row) {
-      // What a quantity has or gains: a momentum of zero is about to be one.
-      const Eigen::Index first = row < 3 ? 0 : (row < 10 ? 7 : 10);
-      const double size = row >= 3 && row < 7 ? 1.0
-                                              : std::max(y.block<3, 1>(first, i).norm(),
-                                                         h * rate_.block<3, 1>(first, i).norm());
-      const double step = kStep * std::max(size, 1e-6);
+      const double step = kStep * std::max(size_of(y, rate_, row, i, h), 1e-12);
       probe_(row, i) = y(row, i) + step;
       system.derivative(probe_, changed);
       probe_(row, i) = y(row, i);
@@ -101,7 +105,7 @@ bool Rosenbrock::advance(const System& system, SystemState& y, double duration, 
     const bool last = memory.h >= left * (1 - 1e-9);
     const double h = last ? left : memory.h;
     step(system, y, h);
-    const double ratio = relative_error(system, y, end_, rate_, error_, h) / tolerance;
+    const double ratio = relative_error(system, y, end_, rate_, error_, h, tolerance) / tolerance;
     if (!std::isfinite(ratio) && h < 1e-12 * duration) return false;
     const double factor = std::isfinite(ratio)
                               ? (ratio > 0 ? std::clamp(0.9 / power(ratio, 0.25), 0.2, 6.0) : 6.0)
@@ -116,7 +120,7 @@ bool Rosenbrock::advance(const System& system, SystemState& y, double duration, 
       of_step.raise_to({error_.block<3, 1>(0, i).norm(), 2 * error_.block<4, 1>(3, i).norm()});
     error += of_step;
     y = end_;
-    for (Eigen::Index i = 0; i < y.cols(); ++i) y.block<4, 1>(3, i).normalize();
+    normalize_orientations(y);
     done = last ? duration : done + h;
   }
   return true;

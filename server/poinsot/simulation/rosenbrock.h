@@ -15,6 +15,7 @@ namespace poinsot {
 
 class Rosenbrock {
  public:
+  // For systems of n bodies; again costs nothing.
   void prepare(Eigen::Index n);
 
   // As EmbeddedRungeKutta::advance, from `done` on; false after `most_steps`.

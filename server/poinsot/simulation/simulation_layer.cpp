@@ -14,6 +14,8 @@ namespace {
 constexpr double kLargest = 1e100;
 // The series stop at rounding; a pair that stands in for them is kept close to it.
 constexpr double kRounding = 1e-14, kStandIn = 1e-12, kDefaultTolerance = 1e-8;
+// An implicit method of order 4 would need a thousand steps a frame for more.
+constexpr double kImplicit = 1e-9;
 constexpr int kMostSeries = 64, kMostSteps = 20000;  // per advance
 // An estimate of the error of fixed steps costs three of them: it is taken now and then.
 constexpr std::uint32_t kEstimateEvery = 16;
@@ -79,6 +81,7 @@ void SimulationLayer::advance_to(double t_end) {
   const double duration = t_end - world_.time;
   advance_error_ = {};
   advance_mismatch_ = 0;
+  if (estimates_steps()) step_error_ = {};
   for (Eigen::Index i = 0; i < world_.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!world_.moves(i)) {
@@ -102,6 +105,10 @@ void SimulationLayer::advance_to(double t_end) {
   in_contact_ = false;
   last_good_ = world_.y;
   world_.time = t_end;
+}
+
+bool SimulationLayer::estimates_steps() const {
+  return !is_adaptive(kind_) && advances_ % kEstimateEvery == 0;
 }
 
 void SimulationLayer::check(double t_end) {
@@ -162,6 +169,12 @@ void SimulationLayer::integrate(const Group& group, double duration) {
     methods_[static_cast<std::size_t>(i)] = method;
     const Vec3 expected = Vec3(angular_momentum(world_.y, i)) + state.block<3, 1>(14, j);
     scatter(state, j, world_.y, i);
+    if (!world_.moves(i)) {  // held in a system of others
+      methods_[static_cast<std::size_t>(i)] = Method::none;
+      momentum(world_.y, i).setZero();
+      angular_momentum(world_.y, i).setZero();
+      continue;
+    }
     if (!is_sound(world_.y, i)) continue;  // it will be frozen
     const Vec3 L = angular_momentum(world_.y, i);
     advance_mismatch_ = std::max(advance_mismatch_, (L - expected).norm());
@@ -199,13 +212,12 @@ Method SimulationLayer::by_tolerance(const EmbeddedPair& pair, Method method, do
       group.work.embedded.advance(pair, system, state, duration, tolerance, kMostSteps,
                                   group.memory, advance_error_, done))
     return method;
-  if (!group.springs.empty()) {
-    if (!stiff_ || !group.memory.stiff) group.work.rosenbrock.prepare(system.size());
-    group.memory.stiff = stiff_ = true;
-    if (group.work.rosenbrock.advance(system, state, duration, tolerance, kMostSteps, group.memory,
-                                      advance_error_, done))
-      return Method::rosenbrock;
-  }
+  group.memory.stiff = stiff_ = true;
+  group.work.rosenbrock.prepare(system.size());
+  if (group.work.rosenbrock.advance(system, state, duration, std::max(tolerance, kImplicit),
+                                    kMostSteps, group.memory, advance_error_, done))
+    return Method::rosenbrock;
+  advance_error_ = {};
   // Nothing can follow this motion: the body is frozen where it was.
   state.setConstant(std::numeric_limits<double>::quiet_NaN());
   return method;
@@ -215,10 +227,8 @@ Method SimulationLayer::by_fixed_steps(const Group& group, const System& system,
   SystemState& state = group.work.state;
   const int steps = step_count(duration, longest_step_);
   const double h = duration / steps;
-  if (advances_ % kEstimateEvery == 0) {
-    const LocalError of_step = group.work.fixed.compare(kind_, system, state, h);
-    advance_error_ = {steps * of_step.position, steps * of_step.orientation};
-  }
+  if (estimates_steps()) step_error_.raise_to(group.work.fixed.compare(kind_, system, state, h));
+  advance_error_ = {steps * step_error_.position, steps * step_error_.orientation};
   for (int s = 0; s < steps; ++s) group.work.fixed.step(kind_, system, state, h);
   switch (kind_) {
     case IntegratorKind::semi_implicit_euler:

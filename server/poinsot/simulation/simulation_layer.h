@@ -81,6 +81,7 @@ class SimulationLayer {
   };
 
   void check(double t_end);
+  bool estimates_steps() const;
   bool is_driven(Eigen::Index i) const;
   void fly(Eigen::Index i, double t_end);
   void integrate(const Group& group, double duration);
@@ -110,6 +111,7 @@ class SimulationLayer {
 
   double work_ = 0;
   LocalError forced_error_, advance_error_;
+  LocalError step_error_;  // of one fixed step, when it was last estimated
   double momentum_mismatch_ = 0, advance_mismatch_ = 0, largest_momentum_ = 0;  // [kg·m²/s]
   std::uint32_t advances_ = 0;
   bool stiff_ = false;

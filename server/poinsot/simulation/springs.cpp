@@ -104,7 +104,12 @@ std::vector<BodySystem> make_systems(const Scene& scene, const World& world) {
     SpringLink link = spring.link;
     link.a = place[static_cast<std::size_t>(spring.a)];
     if (spring.b >= 0) link.b = place[static_cast<std::size_t>(spring.b)];
-    systems[system_of[joined.root(static_cast<std::size_t>(spring.a))]].springs.push_back(link);
+    BodySystem& system = systems[system_of[joined.root(static_cast<std::size_t>(spring.a))]];
+    system.springs_of.resize(system.columns.size());
+    const int index = static_cast<int>(system.springs.size());
+    system.springs_of[static_cast<std::size_t>(link.a)].push_back(index);
+    if (link.b >= 0) system.springs_of[static_cast<std::size_t>(link.b)].push_back(index);
+    system.springs.push_back(link);
   }
   return systems;
 }

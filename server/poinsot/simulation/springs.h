@@ -26,6 +26,7 @@ struct SpringLink {
 struct BodySystem {
   std::vector<Eigen::Index> columns;  // of the world
   std::vector<SpringLink> springs;
+  std::vector<std::vector<int>> springs_of;  // per body: which springs hold it
 };
 
 // The systems of more than a lone body without springs, each in column order; empty if the scene

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "poinsot/math/elementary.h"
 
@@ -264,9 +265,26 @@ double TaylorSeries::squared_term(const System& system) const {
   double largest = 0;
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const SeriesSquares& square = series_[i].squares;
-    largest = std::max({largest, square.R, square.v * scales_[i].v, square.m * scales_[i].m});
+    const double v = square.v * scales_[i].v, m = square.m * scales_[i].m;
+    if (!std::isfinite(square.R + v + m)) return std::numeric_limits<double>::infinity();
+    largest = std::max({largest, square.R, v, m});
   }
   return largest;
+}
+
+// A series of |v| goes on through zero to negative values; nature turns round.
+bool TaylorSeries::passed_standstill(const System& system, double h, const SystemState& y) const {
+  constexpr double kSame = 1e-6;
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    const SystemBody& body = system.bodies[i];
+    if (!(body.drag.quadratic > 0)) continue;
+    double speed = series_[i].speed[static_cast<std::size_t>(order_) - 1];
+    for (std::size_t k = static_cast<std::size_t>(order_) - 1; k-- > 0;)
+      speed = series_[i].speed[k] + h * speed;
+    const double actual = body.inv_mass * y.block<3, 1>(7, static_cast<Eigen::Index>(i)).norm();
+    if (!(std::abs(speed - actual) <= kSame * std::max(actual, series_[i].speed[0]))) return true;
+  }
+  return false;
 }
 
 bool TaylorSeries::advance(const System& system, SystemState& y, double duration, double tolerance,
@@ -298,6 +316,7 @@ bool TaylorSeries::advance(const System& system, SystemState& y, double duration
       if (!(h * most_steps > duration)) return false;
     }
     evaluate(system, h, y);
+    if (passed_standstill(system, h, y)) return false;
     error += last_terms(system, h);
     left -= h;
   }

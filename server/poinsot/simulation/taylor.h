@@ -83,6 +83,7 @@ class TaylorSeries {
   bool add_order(const System& system, int k);
   void find_scales(const System& system, double h);
   double squared_term(const System& system) const;
+  bool passed_standstill(const System& system, double h, const SystemState& y) const;
 
   static bool add_drag(const DragDef& drag, Body& series, std::size_t k);
   void separate(const SpringLink& link, Spring& spring, std::size_t k) const;

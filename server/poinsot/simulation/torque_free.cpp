@@ -28,6 +28,9 @@ double twice_sinh(double x, double h) {
          (1 + s / 6 * (1 + s / 20 * (1 + s / 42 * (1 + s / 72 * (1 + s / 110 * (1 + s / 156))))));
 }
 
+// Squares of the complementary nome below this are lost beside 1.
+constexpr double kLastNome = 1e-20;
+
 }  // namespace
 
 // Theta series in the nome q ≤ ¼, all sines and cosines from one pair.
@@ -70,22 +73,30 @@ void TorqueFree::evaluate(const Separatrix& p, double t, Vec3& m, double& x, dou
   const double parity = std::fmod(z.turns, 2) == 0 ? 1 : -1;  // sn, cn change sign after 2K
   const double exponent = p.exponent * z.fraction;
   const double h = exponential(exponent), g = 1 / h;
-  const double h2 = h * h, g2 = g * g, h3 = h2 * h, g3 = g2 * g, h5 = h3 * h2, g5 = g3 * g2;
-  const double plus1 = h + g, minus1 = twice_sinh(exponent, h);
-  const double e1 = h2 + g2, e2 = h2 * h2 + g2 * g2;
-  const double theta3 = 1 + p.q1 * e1 + p.q4 * e2;
-  const double theta2 = 1 - p.q1 * e1 + p.q4 * e2;
-  const double theta4 = plus1 + p.q2 * (h3 + g3) + p.q6 * (h5 + g5);
-  const double theta1 = minus1 - p.q2 * (h3 - g3) + p.q6 * (h5 - g5);
+  const double h2 = h * h, g2 = g * g;
+  const double plus1 = h + g, minus1 = twice_sinh(exponent, h), e1 = h2 + g2;
+  double theta3 = 1 + p.q1 * e1, theta2 = 1 - p.q1 * e1, theta4 = plus1, theta1 = minus1;
+  double re = p.real[0] * plus1, im = p.imag[0] * minus1;
+  if (p.q1 > kLastNome) {  // else all further terms are nothing, and their factors overflow
+    const double h3 = h2 * h, g3 = g2 * g, h5 = h3 * h2, g5 = g3 * g2;
+    const double e2 = h2 * h2 + g2 * g2;
+    const double plus3 = p.q2 * (h3 + g3), minus3 = p.q2 * (h3 - g3);
+    const double plus5 = p.q6 * (h5 + g5), minus5 = p.q6 * (h5 - g5);
+    theta3 += p.q4 * e2;
+    theta2 += p.q4 * e2;
+    theta4 += plus3 + plus5;
+    theta1 += minus5 - minus3;
+    re += p.real[1] * plus3 + p.real[2] * plus5;
+    im += p.imag[1] * minus3 + p.imag[2] * minus5;
+  }
   const double inverse = 1 / theta4;
   m = {p.scale.x() * parity * theta2 * inverse, p.scale.y() * parity * theta1 * inverse,
        p.scale.z() * theta3 * inverse};
-  const double re = p.real[0] * plus1 + p.real[1] * p.q2 * (h3 + g3) + p.real[2] * p.q6 * (h5 + g5);
-  const double im =
-      p.imag[0] * minus1 + p.imag[1] * p.q2 * (h3 - g3) + p.imag[2] * p.q6 * (h5 - g5);
+  // Only the direction of the product counts; so close to the axis its factors are huge and tiny.
   const double m2 = p.sn_scale * theta1;
-  x = parity * (re * theta2 + im * m2);
-  y = parity * (im * theta2 - re * m2);
+  const double first = 1 / plus1, second = parity / (std::abs(theta2) + std::abs(m2));
+  x = (re * first) * (theta2 * second) + (im * first) * (m2 * second);
+  y = (im * first) * (theta2 * second) - (re * first) * (m2 * second);
   angle = 2 * std::numbers::pi * p.lambda.at(t).fraction - std::numbers::pi * p.beta * z.fraction;
 }
 

@@ -18,7 +18,8 @@ __extension__ using Quad = __float128;
 
 constexpr Real kPi = std::numbers::pi_v<Real>;
 
-// L in the principal frame, Aᵀ R(q)ᵀ L; q need not be unit.
+// L in the principal frame, Aᵀ R(q)ᵀ L; q as it is, for rounding it to unit length would turn m by
+// more than a needle's smallest component can bear.
 template <class T>
 std::array<T, 3> principal_momentum(const PrincipalAxes& body, const Quat& q, const Vec3& L) {
   const T x = q.x(), y = q.y(), z = q.z(), w = q.w();
@@ -57,6 +58,7 @@ struct Circled {
   Real m1, m2, m3;      // [-]
   Real M1, M2, M3;      // [-] amplitudes
   Real k, k_complement;
+  Real spin;                                // [1/(kg·m²)] 2T/G²
   std::array<std::array<Real, 3>, 3> axes;  // of that frame, in B
 };
 
@@ -85,6 +87,7 @@ Circled circle(const PrincipalAxes& body, std::array<Real, 3> m, Real separation
   c.a1 = (I[1] - I[2]) / (I[1] * I[2]);
   c.a2 = (I[2] - I[0]) / (I[2] * I[0]);
   c.a3 = (I[0] - I[1]) / (I[0] * I[1]);
+  c.spin = (m[0] * m[0] / I[0] + m[1] * m[1] / I[1] + m[2] * m[2] / I[2]) / (G * G);
   c.m1 = m[0] / G;
   c.m2 = m[1] / G;
   c.m3 = m[2] / G;
@@ -93,7 +96,7 @@ Circled circle(const PrincipalAxes& body, std::array<Real, 3> m, Real separation
   c.M2 = std::sqrt(c.m2 * c.m2 + c.m1 * c.m1 / r12);
   c.M3 = std::sqrt(c.m3 * c.m3 + r32 * c.m2 * c.m2);
   // A motion closer to the separatrix than any double could tell stays this close.
-  constexpr Real kLeast = 1e-50L;
+  constexpr Real kLeast = 1e-145L;
   c.k_complement =
       std::fmax(kLeast, std::sqrt(std::abs(separation) / (std::abs(c.a1) * G * G)) / c.M3);
   c.k = std::sqrt(std::abs(c.a3 / c.a1)) * c.M1 / c.M3;
@@ -144,10 +147,15 @@ Real hyperbolic_cos(Real x) {
   return (e + 1 / e) / 2;
 }
 
+// Relative accuracy for small x as well: a needle's rates depend on it.
 Real hyperbolic_sin(Real x) {
-  if (std::abs(x) < 1e-3L) return x * (1 + x * x / 6 * (1 + x * x / 20 * (1 + x * x / 42)));
-  const Real e = exponential(x);
-  return (e - 1 / e) / 2;
+  if (std::abs(x) > 0.5L) {
+    const Real e = exponential(x);
+    return (e - 1 / e) / 2;
+  }
+  Real sum = 1;
+  for (int n = 18; n >= 2; n -= 2) sum = 1 + x * x * sum / static_cast<Real>(n * (n + 1));
+  return x * sum;
 }
 
 }  // namespace
@@ -181,26 +189,29 @@ struct TorqueFree::Setup {
     const Real y = kPi * (motion.shifted ? p.b_prime : p.b) / (2 * p.K);
     const Real cosh_y = hyperbolic_cos(y), sinh_y = hyperbolic_sin(y);
     const Real cosh_2y = cosh_y * cosh_y + sinh_y * sinh_y, sinh_2y = 2 * sinh_y * cosh_y;
-    Real ch = motion.shifted ? cosh_y : 1, sh = motion.shifted ? sinh_y : 0;  // of multiple · y
-    Real above = 0, below = 0;  // the logarithmic derivative of Θ at u = 0, over i
+    Real ch = 1, sh = 0;        // of 2ny
+    Real above = 0, below = 0;  // Jacobi's −i Z(iβ, k) over π/2K, β = 2K y/π
     Real theta2 = 0, theta3 = -1, theta4 = -1;
     Real even = 1, odd = 1, step = nome;  // qⁿ², qⁿ⁽ⁿ⁺¹⁾, q²ⁿ⁺¹
     for (std::size_t n = 0; n <= Polhode::kTerms; ++n) {
       const Real sign = n % 2 == 0 ? 1 : -1;
-      const Real multiple = static_cast<Real>(motion.shifted ? 2 * n + 1 : 2 * n);
       theta2 += odd;
       theta3 += 2 * even;
       theta4 += 2 * sign * even;
-      const Real weight = sign * (motion.shifted ? odd / cosh_y : (n == 0 ? 1 : 2) * even);
-      const Real re = weight * ch, im = -weight * sh;
-      above += multiple * (motion.shifted ? re : im);
-      below += motion.shifted ? -im : re;
+      const Real weight = sign * (n == 0 ? 1 : 2) * even;
+      Real re = weight * ch, im = -weight * sh;
+      above += static_cast<Real>(2 * n) * im;
+      below += re;
+      if (motion.shifted) {  // of (2n+1)y, over cosh y
+        re = sign * odd * (ch + sh * sinh_y / cosh_y);
+        im = -sign * odd * (sh + ch * sinh_y / cosh_y);
+      }
       motion.even[n] = static_cast<double>(even);
       motion.odd[n] = static_cast<double>(odd);
       motion.real[n] = static_cast<double>(re);
       motion.imag[n] = static_cast<double>(im);
       constexpr Real kNegligible = 1e-20L;
-      if (n > 0 && std::fmax(even, odd) * ch < kNegligible * cosh_y) break;
+      if (n > 0 && even * ch < kNegligible && odd * ch < kNegligible) break;
       motion.terms = static_cast<int>(n);
       const Real next = ch * cosh_2y + sh * sinh_2y;
       sh = sh * cosh_2y + ch * sinh_2y;
@@ -211,9 +222,10 @@ struct TorqueFree::Setup {
       step *= nome;
     }
     const Real rate = p_rate(c);
-    const Real z_rate = kPi * rate / (2 * p.K);
+    const Real zeta = kPi / (2 * p.K) * above / below;
     motion.z = {rate / (4 * p.K), p.u / (4 * p.K)};
-    motion.lambda = {(G / c.I1 - z_rate * above / below) / (2 * kPi), 0};
+    motion.lambda = {(motion.shifted ? shifted_rate(c, zeta) : G / c.I1 - zeta * rate) / (2 * kPi),
+                     0};
     set_frame(motion, c, theta4 / theta2, theta3 / theta2, theta4 / theta3);
     return motion;
   }
@@ -228,7 +240,7 @@ struct TorqueFree::Setup {
     motion.q6 = static_cast<double>(power(nome, 6));
     const Real beta = p.b / p.K_prime, beta_prime = p.b_prime / p.K_prime;
     motion.beta = static_cast<double>(beta);
-    Real zeta = -kPi * p.b / (2 * p.K * p.K_prime);
+    Real zeta = kPi * p.b / (2 * p.K * p.K_prime);  // λ = 2T/G + p (Z(b, k′) + πb/2KK′)
     for (std::size_t n = 0; n < motion.real.size(); ++n) {
       const double odd = static_cast<double>(2 * n + 1) * 0.5 * std::numbers::pi;
       const bool near_one = beta > 0.5L;
@@ -241,18 +253,24 @@ struct TorqueFree::Setup {
     for (int n = 1; n <= 7; ++n) {
       const Real q_n = power(nome, static_cast<std::size_t>(n));
       const SinCos a = sin_cos(n * std::numbers::pi * static_cast<double>(beta));
-      zeta -= 2 * kPi / p.K_prime * q_n / (1 - q_n * q_n) * static_cast<Real>(a.sin);
+      zeta += 2 * kPi / p.K_prime * q_n / (1 - q_n * q_n) * static_cast<Real>(a.sin);
     }
-    const Real cn = c.M1 / std::hypot(c.M1, c.M3);
-    zeta += std::sqrt(c.k * c.k + c.k_complement * c.k_complement * cn * cn) * c.M3 / c.M1;
     const Real rate = p_rate(c);
     motion.z = {rate / (2 * p.K), p.u / (2 * p.K)};
-    motion.lambda = {(G / c.I1 - zeta * rate) / (2 * kPi), 0};
+    motion.lambda = {(G * c.spin + zeta * rate) / (2 * kPi), 0};
     const Real theta2 = 1 - 2 * nome + 2 * power(nome, 4);
     const Real theta3 = 1 + 2 * nome + 2 * power(nome, 4);
     const Real theta4 = 2 + 2 * power(nome, 2) + 2 * power(nome, 6);
     set_frame(motion, c, theta4 / theta2, theta3 / theta2, theta4 / theta3);
     return motion;
+  }
+
+  // λ of the shifted form, which is G/I₁ less a term that for a needle is as large: with β = b′,
+  // tan am β = sqrt(|a₁/a₃|) and dn β = sqrt(|a₃/a₂|)/M₃ both become 2T/G.
+  Real shifted_rate(const Circled& c, Real zeta) const {
+    const Real root = std::sqrt(std::abs(c.a1 / c.a2));  // sn β
+    const Real kk = c.k_complement * c.k_complement;
+    return G * c.spin + p_rate(c) * (zeta - root / c.M3 + kk * c.M3 * root);
   }
 
   // u′ [1/s]
@@ -280,7 +298,7 @@ TorqueFree::TorqueFree(const PrincipalAxes& body, const Quat& q, const Vec3& L) 
     motion_ = Still{setup.q};
     return;
   }
-  auto m = principal_momentum<Real>(body, setup.q, L);
+  auto m = principal_momentum<Real>(body, q, L);
   constexpr Real kEqual = 1e-19L;  // moments that agree to rounding
   const bool low = I[1] - I[0] <= kEqual * I[1], high = I[2] - I[1] <= kEqual * I[2];
   if (low && high) {
@@ -299,9 +317,11 @@ TorqueFree::TorqueFree(const PrincipalAxes& body, const Quat& q, const Vec3& L) 
     return;
   }
   Real apart = separation<Real>(I, m);
-  constexpr Real kCancels = 1e-3L;
-  if (std::abs(apart) < kCancels * G * G * (I[2] - I[0]) / (I[0] * I[2])) {
-    const auto exact = principal_momentum<Quad>(body, setup.q, L);
+  // Where the difference cancels, and where one component is so small beside the others (a needle's
+  // along its axis) that 64 bits of their sum leave too few of its own.
+  constexpr Real kCancels = 1e-3L, kNeedle = 100;
+  if (std::abs(apart) < kCancels * G * G * (I[2] - I[0]) / (I[0] * I[2]) || I[2] > kNeedle * I[0]) {
+    const auto exact = principal_momentum<Quad>(body, q, L);
     apart = static_cast<Real>(separation<Quad>(I, exact));
     for (std::size_t k = 0; k < 3; ++k) m[k] = static_cast<Real>(exact[k]);
   }

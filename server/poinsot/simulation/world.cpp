@@ -20,8 +20,8 @@ World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
     mass.push_back(body.is_static ? 0.0 : m.mass);
     inv_mass.push_back(body.is_static ? 0.0 : 1.0 / m.mass);
     J_B.push_back(body.is_static ? Mat3(Mat3::Zero()) : m.J);
-    inv_J_B.push_back(body.is_static ? Mat3(Mat3::Zero()) : Mat3(m.J.inverse()));
     principal_axes.push_back(body.is_static ? PrincipalAxes{} : poinsot::principal_axes(m.J));
+    inv_J_B.push_back(body.is_static ? Mat3(Mat3::Zero()) : inverse_inertia(principal_axes[k]));
 
     position(y, i) = body.pose * m.center_of_mass;
     orientation(y, i) = body.pose.q;
@@ -35,10 +35,15 @@ World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(), dragged))
     for (const BodyDef& body : scene.bodies) drag.push_back(body.drag);
   systems = make_systems(scene, *this);
-  if (!systems.empty()) system_of.assign(n, kLone);
+  if (systems.empty()) return;
+  system_of.assign(n, kLone);
+  place_of.assign(n, 0);
   for (std::size_t s = 0; s < systems.size(); ++s)
-    for (const Eigen::Index i : systems[s].columns)
-      system_of[static_cast<std::size_t>(i)] = static_cast<int>(s);
+    for (std::size_t j = 0; j < systems[s].columns.size(); ++j) {
+      const auto k = static_cast<std::size_t>(systems[s].columns[j]);
+      system_of[k] = static_cast<int>(s);
+      place_of[k] = static_cast<int>(j);
+    }
 }
 
 std::optional<Eigen::Index> World::find(BodyId id) const {
@@ -113,16 +118,14 @@ Wrench acting_wrench(const World& world, Eigen::Index i) {
   }
   if (world.systems.empty() || world.system_of[k] == World::kLone) return w;
   const BodySystem& system = world.systems[static_cast<std::size_t>(world.system_of[k])];
-  for (const SpringLink& spring : system.springs) {
-    const auto is_here = [&](int index) {
-      return index != SpringLink::kWorld && system.columns[static_cast<std::size_t>(index)] == i;
-    };
-    if (!is_here(spring.a) && !is_here(spring.b)) continue;
+  const int place = world.place_of[k];
+  for (const int index : system.springs_of[static_cast<std::size_t>(place)]) {
+    const SpringLink& spring = system.springs[static_cast<std::size_t>(index)];
     const SpringEnd a = spring_end(world, system, spring.a, spring.p_a);
     const SpringEnd b = spring_end(world, system, spring.b, spring.p_b);
     const SpringForce f = spring_force(spring, a.x, b.x, a.v, b.v);
     const Vec3 force = f.elastic + f.damping;
-    w += is_here(spring.a) ? Wrench{force, a.arm.cross(force)}
+    w += spring.a == place ? Wrench{force, a.arm.cross(force)}
                            : Wrench{-force, b.arm.cross(Vec3(-force))};
   }
   return w;

@@ -58,7 +58,8 @@ struct World {
   std::vector<PrincipalAxes> principal_axes;
   std::vector<DragDef> drag;        // empty: no body has any
   std::vector<BodySystem> systems;  // bodies with springs; empty: the scene has none
-  std::vector<int> system_of;       // index into systems, kLone; empty as systems
+  std::vector<int> system_of;       // index into systems, or kLone; empty as systems
+  std::vector<int> place_of;        // index into that system's columns; empty as systems
   static constexpr int kLone = -1;
 
   // Inputs of the frame.

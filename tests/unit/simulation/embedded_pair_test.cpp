@@ -267,7 +267,7 @@ TEST(RelativeError, MeasuresEachQuantityAgainstItsOwnScale) {
   SystemState rate(17, 1), error = SystemState::Zero(17, 1);
   system.derivative(sample.y, rate);
   const auto measure = [&] {
-    return relative_error(system, sample.y, sample.y, rate, error, 1e-3);
+    return relative_error(system, sample.y, sample.y, rate, error, 1e-3, 1e-6);
   };
   EXPECT_EQ(measure(), 0);
   error(4, 0) = 1e-6;  // half the angle
@@ -290,7 +290,7 @@ TEST(RelativeError, IsNoNumberForAnErrorThatIsNone) {
     SystemState error = SystemState::Zero(17, 1);
     error(row, 0) = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(std::isfinite(
-        relative_error(system, sample.y, sample.y, SystemState::Zero(17, 1), error, 1)))
+        relative_error(system, sample.y, sample.y, SystemState::Zero(17, 1), error, 1, 1e-6)))
         << row;
   }
 }

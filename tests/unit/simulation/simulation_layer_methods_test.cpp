@@ -171,8 +171,12 @@ TEST_P(Layers, MeasureWorkAsTheChangeOfEnergy) {
     }
     const double after = kinetic_energy(layer.world()) + potential_energy(layer.world());
     EXPECT_NEAR(after - before, layer.work(), allowed);
-    if (!forcing.spring || !forcing.held.is_zero()) EXPECT_GT(std::abs(layer.work()), 0.1);
-    if (GetParam().kind <= IntegratorKind::taylor) EXPECT_NEAR(after - before, layer.work(), 1e-11);
+    if (!forcing.spring || !forcing.held.is_zero()) {
+      EXPECT_GT(std::abs(layer.work()), 0.1);
+    }
+    if (GetParam().kind <= IntegratorKind::taylor) {
+      EXPECT_NEAR(after - before, layer.work(), 1e-11);
+    }
   }
 }
 
@@ -192,7 +196,9 @@ TEST_P(Layers, ReportErrorsThatAreOfTheSizeOfTheErrors) {
   // Local errors grow on their way by a factor of some; those of fixed steps are estimated in every
   // sixteenth advance, so a sum over all misses up to fifteen of sixteen.
   EXPECT_GE(sum.orientation * (is_adaptive(GetParam().kind) ? 10 : 160), error - 1e-13);
-  if (is_adaptive(GetParam().kind)) EXPECT_LE(sum.orientation, 1e-5);
+  if (is_adaptive(GetParam().kind)) {
+    EXPECT_LE(sum.orientation, 1e-5);
+  }
   EXPECT_LE(layer.momentum_error(), GetParam().kind <= IntegratorKind::taylor ? 1e-13 : 0.05);
   EXPECT_TRUE(std::isfinite(layer.momentum_error()));
 }
