@@ -48,6 +48,7 @@ void Rosenbrock::prepare(Eigen::Index n) {
   if (rate_.cols() == n) return;
   jacobian_.resize(17 * n, 17 * n);
   matrix_.resize(17 * n, 17 * n);
+  solution_.resize(17 * n);
   factors_ = Eigen::PartialPivLU<Eigen::MatrixXd>(17 * n);
   g_.resize(kStages);
   for (SystemState& g : g_) g.resize(17, n);
@@ -71,8 +72,10 @@ void Rosenbrock::differentiate(const System& system, const SystemState& y, doubl
     }
 }
 
+// By way of another vector: to permute one in place Eigen allocates.
 void Rosenbrock::solve(SystemState& stage) {
-  flat(stage) = factors_.solve(flat(stage));
+  solution_ = factors_.solve(flat(stage));
+  flat(stage) = solution_;
 }
 
 void Rosenbrock::step(const System& system, const SystemState& y, double h) {

@@ -31,6 +31,7 @@ class Rosenbrock {
   void solve(SystemState& stage);
 
   Eigen::MatrixXd jacobian_, matrix_;
+  Eigen::VectorXd solution_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
   std::vector<SystemState> g_;
   SystemState rate_, probe_, end_, error_;
