@@ -1,6 +1,7 @@
 // What the layer moves each body by, what it reports about it, and what it costs in allocations.
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -81,6 +82,21 @@ TEST(Methods, AreImplicitForStiffSprings) {
   // x″ + c x′ + c x = 0 with c = 1e6: the slow mode alone, exp(−t (1 + 1/c)).
   EXPECT_NEAR(position(layer.world().y, 0).x(), 1 + std::exp(-1 - 1e-6), 2e-6);
   EXPECT_EQ(layer.quarantined(), 0u);
+}
+
+// It holds its end of the spring; the other body goes on.
+TEST(Methods, LeaveAFrozenBodyInASystemWhereItIs) {
+  SimulationLayer layer(sprung_pair(50, 0));
+  run(layer, 10);
+  const StateArray before = layer.world().y;
+  momentum(layer.world().y, 0).x() = std::numeric_limits<double>::quiet_NaN();
+  layer.freeze_unsound();
+  run(layer, 60);
+  EXPECT_EQ(layer.quarantined(), 1u);
+  EXPECT_EQ(layer.methods()[0], Method::none);
+  EXPECT_EQ(layer.methods()[1], Method::taylor);
+  EXPECT_NEAR((layer.world().y.col(0).head<7>() - before.col(0).head<7>()).norm(), 0, 1e-15);
+  EXPECT_GT((position(layer.world().y, 1) - position(before, 1)).norm(), 1);
 }
 
 struct Integrator {

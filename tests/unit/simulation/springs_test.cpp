@@ -44,6 +44,9 @@ TEST(MakeSystems, JoinsChainsAndLeavesTheOthersAlone) {
   EXPECT_EQ(first.a, 2);
   EXPECT_EQ(first.b, 1);
   EXPECT_EQ(first.rest, 2);  // the distance at time 0
+  using Held = std::vector<std::vector<int>>;
+  EXPECT_EQ(world.systems[0].springs_of, (Held{{1}, {0, 1}, {0}}));
+  EXPECT_EQ(world.place_of[4], 2);
 }
 
 TEST(MakeSystems, MakesPointsOfTheWorldOfBodiesThatDoNotMove) {

@@ -252,6 +252,18 @@ TEST(Taylor, RefusesQuadraticDragAtRest) {
   EXPECT_TRUE(taylor.advance(linear.system(), linear.y, 0.01, kTolerance, kMostSteps, error));
 }
 
+// Thrown up, it stands still after some 0.09 s: the series of |v| would go on to negative speeds.
+TEST(Taylor, RefusesQuadraticDragThroughStandstill) {
+  Scene scene = with_drag({0, 0.2, 0});
+  scene.bodies[0].linear_velocity = {0, 0, 0.9};
+  TaylorSeries taylor;
+  taylor.prepare(1, 0);
+  LocalError error;
+  SampleSystem before(scene), through(scene);
+  EXPECT_TRUE(taylor.advance(before.system(), before.y, 0.05, kTolerance, kMostSteps, error));
+  EXPECT_FALSE(taylor.advance(through.system(), through.y, 0.2, kTolerance, kMostSteps, error));
+}
+
 TEST(Taylor, RefusesASpringWithoutLengthThatHasADirection) {
   Scene scene = test::scene({test::free_body("body", 2, {1, 2, 3})});
   scene.springs = {test::spring("body", Vec3::Zero(), "", Vec3::Zero(), 10, 0, 1.0)};

@@ -94,7 +94,7 @@ TEST(TorqueFree, FollowsEveryBranchOfTheMotion) {
 // k'² about δ²: turned over once after ln(4/k')/λ, λ = 2.9/s.
 TEST(TorqueFree, PassesTheUnstableAxisHoweverClose) {
   const double lambda = 5 / std::sqrt(3.0);
-  for (const double delta : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13}) {
+  for (const double delta : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-30, 1e-90, 1e-150}) {
     expect_exact(spinning({1, 2, 3}, {delta, 5, 0.3 * delta}), every(1.1, 12), lambda);
     expect_exact(spinning({1, 2, 3}, {-0.2 * delta, -5, delta}), every(1.1, 12), lambda);
   }
@@ -174,6 +174,27 @@ TEST(TorqueFree, StaysWhereItIsWithoutSpin) {
     const Rotation still{Vec3(1, 2, 3).asDiagonal(), spin * Vec3(1, 1, 1), q};
     for (const double t : {0.0, 1.0, 1e9})
       EXPECT_LE(angle_between(torque_free(still).at(t), q), 2e-16 + 2 * spin * t);
+  }
+}
+
+// The smallest moment follows from J to a rounding of the largest in 64 bits, 5e-20 of it: relative
+// to itself that is `ratio` times more, and the body's turning about its axis suffers from it.
+TEST(TorqueFree, FollowsObliqueNeedlesAsFarAs64BitsOfInertiaGo) {
+  const Mat3 R = Quat(0.9, 0.1, -0.2, 0.3).normalized().toRotationMatrix();
+  for (const double ratio : {1e2, 1e4, 1e6}) {
+    const Mat3 J = R * Vec3(1 / ratio, 1, 1 + 0.5 / ratio).asDiagonal() * R.transpose();
+    const Vec3 omega = R * Vec3(3, 1, 2);
+    const Rotation r{(J + J.transpose()) / 2, J * omega, Quat::Identity()};
+    ReferenceBody body;
+    body.J_B = r.J;
+    ExtendedReference reference(body, Vec3::Zero(), r.q, Vec3::Zero(), r.L);
+    const TorqueFree rotation = torque_free(r);
+    for (const double t : {1.0, 10.0}) {
+      reference.advance_to(t);
+      const double of_inertia = 4 * 5e-20 * ratio * 5 * t;
+      EXPECT_LE(reference.orientation_error(rotation.at(t)), rotation.error(t) + of_inertia)
+          << ratio;
+    }
   }
 }
 
