@@ -46,7 +46,9 @@ void System::derivative(const SystemState& y, SystemState& dy) const {
     const Vec3 m = y.block<3, 1>(10, i);
     t.v = body.inv_mass * y.block<3, 1>(7, i);
     t.omega_B = body.inv_J_B * m;
-    t.R = q.normalized().toRotationMatrix();
+    // Without a torque nothing asks for R.
+    const bool turned = body.pushed_in_B() || body.drag.angular > 0;
+    if (turned || !springs.empty()) t.R = q.normalized().toRotationMatrix();
 
     Vec3 force = body.push.in_W.force;
     Vec3 torque = Vec3::Zero();
@@ -62,11 +64,13 @@ void System::derivative(const SystemState& y, SystemState& dy) const {
     dy.block<3, 1>(0, i) = t.v;
     dy.block<4, 1>(3, i) =
         0.5 * (q * Quat(0, t.omega_B.x(), t.omega_B.y(), t.omega_B.z())).coeffs();
-    dy.block<3, 1>(7, i) = body.weight;
-    dy.block<3, 1>(10, i) = m.cross(t.omega_B);
+    dy.block<3, 1>(7, i) = body.weight + force;
+    dy.block<3, 1>(10, i) = m.cross(t.omega_B) + torque;
     dy(13, i) = force.dot(t.v) + torque.dot(t.omega_B);
-    dy.block<3, 1>(14, i).setZero();
-    apply(dy, i, t, force, torque);
+    if (turned)
+      dy.block<3, 1>(14, i) = t.R * torque;
+    else
+      dy.block<3, 1>(14, i).setZero();
   }
   for (const SpringLink& spring : springs) {
     const auto point = [&](int index, const Vec3& p, Vec3& x, Vec3& v) {
