@@ -13,7 +13,7 @@ inline std::string methods_text(const FrameReport& report) {
   std::string text;
   for (const Named<Method>& row : kMethodNames) {
     const std::uint32_t bodies = report.methods[static_cast<std::size_t>(row.value)];
-    if (bodies == 0) continue;
+    if (bodies == 0 || row.value == Method::none) continue;
     text.append(text.empty() ? "" : ", ")
         .append(row.name)
         .append(" ")

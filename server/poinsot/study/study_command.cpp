@@ -109,6 +109,7 @@ void add_study_options(CLI::App& app, StudyOptions& o) {
 void run_study(const Scene& scene, const StudyOptions& options, StopSignals& signals,
                std::ostream& out) {
   if (options.time.count() == 0) throw Error("--time: must be longer than 0 s");
+  if (!std::isfinite(options.error)) throw Error("--error: must be a finite number > 0");
   if (options.budget.count() == 0) throw Error("--budget: must be longer than 0 s");
   if (!options.svg.empty()) require_gnuplot();
   OutputFile csv("--csv", options.csv);

@@ -106,6 +106,7 @@ StudyResult sweep(const Scene& scene, const SweepOptions& options, const ShowPro
                      .frame_rate = scene.presentation.frame_rate,
                      .asked = options.frames,
                      .horizon = reference.frames,
+                     .stride = reference.stride,
                      .reference = reference.info};
   if (reference.frames > 0) measure_all(result, scene, settings, reference, budget, show, stop);
   result.interrupted = stop.stop_requested();

@@ -129,7 +129,9 @@ std::string reference_text(const StudyResult& result) {
       "Reference: {}, certified by {}.\nThey agree to {} m and {} rad.\n", r.name, r.check,
       bound_text(r.certificate.position), bound_text(r.certificate.orientation));
   if (!r.independent)
-    text += "They share a method that moves bodies, so that their agreement proves less.\n";
+    text +=
+        "They share a method that moves bodies: what it gets wrong in all of them is not in "
+        "that.\n";
   return text + horizon_text(result);
 }
 
