@@ -41,8 +41,8 @@ TEST(RunSummary, TextNamesEveryFigure) {
   const std::string text = to_text(example());
   for (const char* part :
        {"600", "10 s", "0.25 s", "factor 40", "presentation 0.5 s", "publishing 8 s",
-        "12: flight 8, taylor 3\n", "energy error  1.5e-06\n",
-        "momentum      error 2.5e-14\n", "3.5e-15 m, 4.5e-16 rad", "0000000000abcdef"})
+        "12: flight 8, taylor 3\n", "energy error  1.5e-06\n", "momentum      error 2.5e-14\n",
+        "3.5e-15 m, 4.5e-16 rad", "0000000000abcdef"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
