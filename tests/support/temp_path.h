@@ -10,13 +10,16 @@
 
 namespace poinsot::test {
 
+// A new directory; whoever asks removes it.
+inline std::string make_temp_directory() {
+  std::string name = (std::filesystem::temp_directory_path() / "poinsot_test_XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no directory " + name);
+  return name;
+}
+
 class TempDirectory {
  public:
-  TempDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "poinsot_test_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no directory " + name);
-    path_ = name;
-  }
+  TempDirectory() : path_(make_temp_directory()) {}
   ~TempDirectory() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);

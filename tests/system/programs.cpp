@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "support/temp_path.h"
 #include "support/test_domain.h"
 
 namespace poinsot {
@@ -28,12 +29,6 @@ Words on_test_domain(Words arguments, const Words& more = {}) {
 Words joined(Words words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
-}
-
-std::string make_directory() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "poinsot_test_XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("mkdtemp");
-  return pattern;
 }
 
 }  // namespace
@@ -76,7 +71,7 @@ Json Watcher::next() {
 }
 
 TemporaryFile::TemporaryFile(const std::string& name, const std::string& text)
-    : directory_(make_directory()), path_(directory_ + "/" + name) {
+    : directory_(test::make_temp_directory()), path_(directory_ + "/" + name) {
   std::ofstream(path_) << text;
 }
 

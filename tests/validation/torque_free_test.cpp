@@ -123,7 +123,7 @@ TEST(TorqueFreeRotation, OfRandomBodiesStaysWithinTheBound) {
     ++bodies;
   }
   RecordProperty("bodies", bodies);
-  RecordProperty("worst_error", std::to_string(worst));
+  RecordProperty("worst_error", std::to_string(1e15 * worst) + "e-15 rad");
   EXPECT_GT(bodies, 50);
 }
 

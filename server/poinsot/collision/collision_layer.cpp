@@ -136,11 +136,12 @@ double CollisionLayer::energy() const {
   return kinetic_energy(world()) + potential_energy(world());
 }
 
-double CollisionLayer::energy_error() {
+EnergyBalance CollisionLayer::energy_balance() {
   const double kinetic = kinetic_energy(world());
   energy_scale_.see(kinetic);
+  const double energy = kinetic + potential_energy(world());
   const double scale = energy_scale_.value();
-  return scale > 0 ? (kinetic + potential_energy(world()) - expected_energy()) / scale : 0;
+  return {energy, scale > 0 ? (energy - expected_energy()) / scale : 0};
 }
 
 void CollisionLayer::hash_into(Hash64& hash) const {

@@ -22,6 +22,11 @@ struct CollisionReport {
   double push_out_energy = 0;  // [J] added by the removal of penetration so far
 };
 
+struct EnergyBalance {
+  double energy;  // [J] kinetic and potential
+  double error;   // [-] relative, since the start
+};
+
 struct CollisionTimes {
   Elapsed collision;   // finding contacts
   Elapsed contact;     // resolving them
@@ -47,8 +52,9 @@ class CollisionLayer {
   // Energy [J], and the relative energy error since the start [-]: what the energy changed by
   // beyond the work of held wrenches, the work and loss at contacts and the push-out, over the
   // energy scale.
+  EnergyBalance energy_balance();
   double energy() const;
-  double energy_error();
+  double energy_error() { return energy_balance().error; }
 
   // Adds what a continuation depends on besides the world.
   void hash_into(Hash64& hash) const;

@@ -67,13 +67,14 @@ void PresentationLayer::capture() {
   const SimulationLayer& simulation = collision_.simulation();
   const std::uint32_t quarantined = simulation.quarantined();
   const LocalError error = simulation.local_error();
+  const EnergyBalance balance = collision_.energy_balance();
   report_ = {.frame = frame_,
              .sim_time = time(),
              .bodies = static_cast<std::uint32_t>(columns_.size()),
              .contacts = collision.contacts,
              .quarantined = quarantined,
-             .energy = collision_.energy(),
-             .energy_error = collision_.energy_error(),
+             .energy = balance.energy,
+             .energy_error = balance.error,
              .push_out_energy = collision.push_out_energy,
              .max_penetration = collision.max_penetration,
              .position_error = error.position,

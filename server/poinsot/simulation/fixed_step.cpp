@@ -3,6 +3,7 @@
 #include <cmath>
 
 namespace poinsot {
+
 int step_count(double duration, double longest) {
   // A ratio that is whole but for rounding must not cost one more step.
   constexpr double kRounding = 1e-9;

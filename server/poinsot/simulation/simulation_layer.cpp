@@ -116,6 +116,10 @@ void SimulationLayer::check(double t_end) {
   if (t_end < world_.time)
     throw Error("advance_to: time runs backwards: it is " + std::to_string(world_.time) +
                 " s, asked for " + std::to_string(t_end) + " s");
+  constexpr double kMostFixedSteps = 1e9;  // more would not end, and not fit a count
+  if (!is_adaptive(kind_) && t_end - world_.time > kMostFixedSteps * longest_step_)
+    throw Error("advance_to: " + std::to_string(t_end - world_.time) +
+                " s would take more than 1e9 steps of " + std::to_string(longest_step_) + " s");
   for (std::size_t k = 0; k < driven_.size(); ++k) {
     driven_[k] = is_driven(static_cast<Eigen::Index>(k)) ? 1 : 0;
     if (driven_[k] != 0 && !is_finite(world_.held[k]))

@@ -26,8 +26,8 @@ class SimulationLayer {
 
   // Afterwards world().time == t_end exactly. Contact wrenches act until t_end and are zero
   // afterwards. A body whose state became non-finite is put back to where the last advance left it
-  // and frozen there. Throws Error if t_end is not finite or lies in the past, or a held wrench is
-  // not finite: before anything has moved.
+  // and frozen there. Throws Error if t_end is not finite, lies in the past or more than 1e9 fixed
+  // steps ahead, or if a held wrench is not finite: before anything has moved.
   void advance_to(double t_end);
 
   // Puts bodies whose state is not finite, or absurd, back to where the last advance left them, and

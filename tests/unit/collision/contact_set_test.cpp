@@ -101,6 +101,35 @@ TEST(ContactSet, ImpulsesScaleWithTheStep) {
   }
 }
 
+// A box falling on a floor 1 m below it at v reaches it within h if v h + g h²/2 does.
+TEST(ContactSet, BodiesMayMeetIfTheyCanReachEachOtherInTime) {
+  constexpr double kFrame = 1.0 / 60;
+  const auto may_meet = [](double speed, BodyDef ground_body) {
+    Scene scene = empty_scene();
+    BodyDef falling = box("box", {0, 0, 1.5});
+    falling.linear_velocity = {0, 0, -speed};
+    scene.bodies = {std::move(ground_body), falling};
+    const World world(scene);
+    ContactSet set(scene, world);
+    return set.may_meet(world, kFrame);
+  };
+  EXPECT_TRUE(may_meet(61, floor()));
+  EXPECT_TRUE(may_meet(61, ground()));
+  // The margin of contacts, 2 % of the size, and the broad boxes of a cube are less than 5 %.
+  EXPECT_FALSE(may_meet(55, floor()));
+  EXPECT_FALSE(may_meet(55, ground()));
+}
+
+TEST(ContactSet, ASpinningBarMayMeetWhatItsEndReaches) {
+  Scene scene = empty_scene();
+  BodyDef bar = box("bar", {0, 0, 0.6}, {1, 0.1, 0.1});  // its end comes down to 0.1
+  bar.angular_velocity = {0, 80, 0};
+  scene.bodies = {floor(), bar};
+  const World world(scene);
+  ContactSet set(scene, world);
+  EXPECT_TRUE(set.may_meet(world, 1.0 / 60));
+}
+
 TEST(ContactSet, AContactThatWasLostStartsAfresh) {
   const Scene scene = box_on_floor();
   World world(scene);

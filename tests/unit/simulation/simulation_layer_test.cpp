@@ -95,6 +95,15 @@ void expect_refused(SimulationLayer& layer, double t) {
   EXPECT_EQ(after.value(), before.value());
 }
 
+TEST(SimulationLayer, RefusesMoreFixedStepsThanCanBeTaken) {
+  Scene scene = test::scene({test::body("ball", Sphere{1}, {0, 0, 9})});
+  scene.simulation.integrator = IntegratorKind::rk4;
+  SimulationLayer layer(scene);
+  expect_refused(layer, 1e9);
+  expect_refused(layer, 1e300);
+  layer.advance_to(1);
+}
+
 TEST(SimulationLayer, RefusesTimesThatAreNone) {
   SimulationLayer layer(test::scene({test::body("ball", Sphere{1}, {0, 0, 9})}));
   layer.advance_to(1);
