@@ -37,6 +37,7 @@ struct ShapeDef {
 struct BodyDef {
   std::string name;                      // unique in the scene
   bool is_static = false;                // never moves; needs no mass
+  bool is_kinematic = false;             // moves with its velocities for ever; needs no mass
   std::vector<ShapeDef> shapes;          // may be empty: a body that touches nothing
   MassProperties mass_properties;        // in B; all zero for a static body
   Pose pose;                             // of B in W at time 0
@@ -88,6 +89,15 @@ struct WrenchDef {
   std::string where;               // as BodyDef::where
 };
 
+// What a pair of bodies does that its materials do not say.
+struct PairDef {
+  std::string a, b;                   // bodies
+  std::optional<double> friction;     // [-]
+  std::optional<double> restitution;  // [-]
+  bool collide = true;                // false: they pass through each other
+  std::string where;                  // as BodyDef::where
+};
+
 struct SimulationDef {
   IntegratorKind integrator = IntegratorKind::exact;
   double step = 0;                   // [s] of the fixed methods; 0: one step per contact step
@@ -97,13 +107,19 @@ struct SimulationDef {
 };
 
 struct CollisionDef {
-  ImpactSearchKind impact_search = ImpactSearchKind::none;
+  ImpactSearchKind impact_search = ImpactSearchKind::conservative;
   ContactSolverKind contact_solver = ContactSolverKind::sequential_impulses;
   double contact_step = 1.0 / 240;  // [s] longest sub-step of a frame
   int iterations = 40;              // sweeps of the contact solver per sub-step
   double contact_margin = 0.02;     // [-] gap below which a point is kept in the manifold, relative
                                     // to the smaller body's size
   double push_out_speed = 1.0;      // [m/s] upper bound of the removal of penetration
+  double contact_band = 1e-10;      // [-] gap below which a pair touches, relative likewise
+  int max_impacts = 32;             // located per frame and island; more are left to the sub-steps.
+                                    // A bouncing ball comes to rest in one frame with 24.
+  bool sleeping = true;             // islands in proven equilibrium cost nothing
+  double sleep_acceleration = 1e-6;  // [m/s²] residual below which an equilibrium is one
+  int threads = 1;                   // that islands are spread over; the bits do not depend on it
 
   // Not keys of the scene file: nothing in a scene needs them otherwise.
   double allowed_penetration = 1e-5;  // [-] that is left alone, relative to the smaller body's size
@@ -126,6 +142,7 @@ struct Scene {
   std::vector<BodyDef> bodies;
   std::vector<SpringDef> springs;
   std::vector<WrenchDef> wrenches;
+  std::vector<PairDef> pairs;
 };
 
 // One fault of a scene. `where` may be empty when the scene was built in code.

@@ -58,8 +58,12 @@ inline constexpr std::array<Named<Method>, 9> kMethodNames = {{
     {"explicit_euler", Method::explicit_euler},
 }};
 
-enum class ImpactSearchKind { none };
-inline constexpr std::array<Named<ImpactSearchKind>, 1> kImpactSearchNames = {{
+// How impacts are found. `none`: fixed sub-steps with contacts that foresee.
+enum class ImpactSearchKind { conservative, backtracking, continuous, none };
+inline constexpr std::array<Named<ImpactSearchKind>, 4> kImpactSearchNames = {{
+    {"conservative", ImpactSearchKind::conservative},
+    {"backtracking", ImpactSearchKind::backtracking},
+    {"continuous", ImpactSearchKind::continuous},
     {"none", ImpactSearchKind::none},
 }};
 
