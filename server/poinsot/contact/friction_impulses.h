@@ -28,20 +28,28 @@ class FrictionImpulses {
   bool solve_tangential(const ImpactSystem& system, double* p);
 
  private:
-  bool run(const ImpactSystem& system, double* p, bool normals_given);
-  void project();     // one damped step of all points, and the residual before it
-  bool newton();      // true: the residual is at rounding
-  double evaluate();  // residual of the law at p_, relative
-  void assemble();    // Newton's matrix
-  void into_cones(double* p) const;
+  struct Point {
+    double t[2], n;        // impulse
+    double limit, length;  // of friction: μ n; before it was cut
+    bool slips;
+  };
 
-  const ImpactSystem* system_ = nullptr;
+  bool run(const ImpactSystem& system, double* p, bool normals_given);
+  void prepare(const ImpactSystem& system, const double* p);
+  double evaluate();  // velocities and residual at p_; the largest, relative
+  Point project(Eigen::Index i, double step_n, double step_t) const;
+  void descend();   // one damped step of all points
+  void assemble();  // Newton's matrix
+  bool newton();    // true: found
+
+  // All scaled, see prepare().
+  Eigen::Index n_ = 0;
   bool normals_given_ = false;
-  std::vector<double> p_, u_, residual_, kept_;
-  std::vector<double> step_n_, step_t_;  // of the fixed point [kg]
-  std::vector<double> damped_n_, damped_t_;
-  std::vector<double> matrix_;
-  std::vector<int> rows_;
+  double best_ = 0;  // residual at p_
+  const double* friction_ = nullptr;
+  std::vector<double> scale_, A_, start_;
+  std::vector<double> p_, u_, residual_, kept_, matrix_;
+  std::vector<double> damped_n_, damped_t_, step_t_;
 };
 
 }  // namespace poinsot

@@ -54,6 +54,8 @@ class ImpactSolver {
   // Points joined by moving bodies: the first point of point i's group.
   int group_of(int point);
   void find_groups(std::span<const ContactBody> bodies, std::span<const ImpactPoint> points);
+  // The group's system; false: a number is not finite or nothing can move at a point.
+  bool assemble(std::span<const ContactBody> bodies, std::span<const ImpactPoint> points);
   void resolve_group(std::span<ContactBody> bodies, std::span<ImpactPoint> points,
                      ImpactOutcome& outcome);
 

@@ -28,6 +28,7 @@ class NormalImpulses {
   void solve_pushing();  // λ there, 0 elsewhere; w elsewhere
   bool exchange();       // true: nothing left to exchange
   bool pivot();          // until nothing is left to exchange
+  bool settled() const;  // the last proximal step changed nothing
 
   Eigen::Index n_ = 0;
   std::vector<double> scale_;   // 1/√N_ii

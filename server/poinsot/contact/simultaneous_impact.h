@@ -34,17 +34,19 @@ class SimultaneousImpact {
   Result resolve(const ImpactSystem& system, std::span<double> p);
 
  private:
-  // Points with restitution ≥ threshold are elastic, the others inelastic. Into q_.
-  void resolve_at(double threshold);
-  void inelastic();
+  // An outcome with the points elastic whose restitution reaches the threshold, into q_.
   void reflections(double threshold);
-  bool find_approaching();         // members_ of the velocities v_; false: none
-  bool compress();                 // members_: c_, from v_
-  void restore(double threshold);  // members_: r_, after c_
-  void add(const std::vector<double>& part, double factor);  // to q_ and v_
-  void end_approach();                                       // without friction, all points
-  double tolerance(Eigen::Index point) const;
-  void gather();  // the members' part of the system
+  void inelastic();
+
+  void start();
+  bool find_approaching();         // into members_, points that approach at v_; false: none
+  void gather();                   // the members' part of the system, from the velocities v_
+  void compress();                 // the inelastic impact of the members, into part_p_
+  void restore(double threshold);  // what the elastic members give back, into part_p_
+  void add(double factor);         // part_p_ of the members to q_, v_ and scale_
+  void end_approach();             // all points, inelastic, without friction
+  // p·u + p·A p/2 of the members, u their velocities as gathered [J].
+  double energy(const std::vector<double>& p) const;
 
   const ImpactSystem* system_ = nullptr;
   bool frictionless_ = true;
@@ -52,11 +54,13 @@ class SimultaneousImpact {
   NormalImpulses normal_;
   FrictionImpulses friction_;
   std::vector<double> levels_;  // distinct restitutions, ascending
-  std::vector<double> q_, v_;   // impulses so far and velocities after them
-  std::vector<double> scale_;   // [m/s] speeds met at each point
+  std::vector<double> q_, v_;   // impulses so far and the velocities after them
+  std::vector<double> scale_;   // [m/s] a point: magnitudes that cancel in its velocity
   std::vector<int> members_;
+  std::vector<char> is_member_;
   ImpactSystem part_;  // of the members
-  std::vector<double> part_A_, part_u_, part_friction_, part_N_, part_un_, c_, r_, lambda_;
+  std::vector<double> part_A_, part_u_, part_friction_, part_N_, part_un_, part_p_, lambda_;
+  double part_energy_ = 0;  // what compression added [J], ≤ 0
 };
 
 }  // namespace poinsot
