@@ -11,7 +11,7 @@ namespace poinsot {
 namespace {
 
 constexpr std::uint64_t kMostPoses = 2000;
-constexpr double kSpent = 0.5;  // [-] of the gap an axis began with: a new one is asked for
+constexpr double kSpent = 0.25;  // [-] of the gap an axis began with: a new one is asked for
 
 }  // namespace
 

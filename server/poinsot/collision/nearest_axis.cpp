@@ -49,16 +49,25 @@ NearestAxis nearest_axis(const PairMotion& motion, const Vec3& hint) {
     const double gap = motion.gap_along(n);
     return {n, gap, motion.pose_b().c + (b.core_radius + 0.5 * gap) * n};
   }
-  NearestAxis best = query(motion, hint, 0);
-  const double cores = best.gap + a.core_radius + b.core_radius;
-  if (std::abs(cores) > kNear * motion.size()) return best;
+  const double small = motion.size();
+  const double radii = a.core_radius + b.core_radius;
+  const auto is_near = [&](double gap) { return std::abs(gap + radii) <= kNear * small; };
+  NearestAxis best{hint, motion.gap_along(hint), Vec3::Zero()};
+  if (hint == Vec3::Zero() || !is_near(best.gap)) best = query(motion, hint, 0);
+  if (!is_near(best.gap)) return best;
+  // The middle is that of a query, also when the axis is the hint.
   for (int i = 0; i < kRepeats; ++i) {
-    const NearestAxis next = query(motion, best.n, kApart * motion.size() - best.gap);
+    const NearestAxis next = query(motion, best.n, kApart * small - best.gap);
     const double gain = next.gap - best.gap;
-    if (gain >= 0) best = next;
-    if (gain <= motion.rounding()) break;
+    if (gain >= 0)
+      best = next;
+    else
+      best.middle = next.middle;
+    if (gain <= motion.rounding()) return best;
   }
-  return best;
+  // Corners that pass each other close by: each axis gains little on the last.
+  const NearestAxis plain = query(motion, best.n, 0);
+  return plain.gap > best.gap ? plain : best;
 }
 
 Vec3 first_axis(const PairMotion& motion, const Vec3& hint) {
