@@ -19,8 +19,7 @@ Scene scene_of(const BodyDef& a, const BodyDef& b, const Vec3& gravity) {
 
 Collider collider_of(const BodyDef& def, int body) {
   const ShapeDef& shape = def.shapes[0];
-  return {body, shape.shape,
-          {shape.pose.c - def.mass_properties.center_of_mass, shape.pose.q}};
+  return {body, shape.shape, {shape.pose.c - def.mass_properties.center_of_mass, shape.pose.q}};
 }
 
 Course course_of(const World& world, const BodyDef& def, Eigen::Index i, const Flight& flight,
@@ -30,8 +29,8 @@ Course course_of(const World& world, const BodyDef& def, Eigen::Index i, const F
   if (def.is_kinematic)
     return Course::uniform(pose, {def.linear_velocity, def.angular_velocity}, 0, end);
   const RotationBound rotation =
-      rotation_bound(world.principal_axes[static_cast<std::size_t>(i)],
-                     pose.q.toRotationMatrix(), angular_momentum(world.y, i));
+      rotation_bound(world.principal_axes[static_cast<std::size_t>(i)], pose.q.toRotationMatrix(),
+                     angular_momentum(world.y, i));
   return Course::flight(world, i, flight, rotation, 0, end);
 }
 
@@ -76,8 +75,7 @@ Sampled dense_samples(const CoursedPair& pair, double dt) {
                               course.moving_at(course.end()).velocity.linear.norm());
     return v + course.rotation().omega * (collider.in_body.c.norm() + collider.bounding_radius);
   };
-  const double closing =
-      speed(courses.a, courses.course_a) + speed(courses.b, courses.course_b);
+  const double closing = speed(courses.a, courses.course_a) + speed(courses.b, courses.course_b);
   Sampled result{std::nullopt, pair.gap(0)};
   const auto root = [&](double apart, double meets) {
     for (int i = 0; i < 60; ++i) {

@@ -13,7 +13,7 @@ constexpr double kClose = 0.05;
 constexpr int kFacets = 12;
 
 // Features within this of being extreme along the axis count for its rate [rad].
-constexpr double kTilt = 1e-8;
+constexpr double kTilt = 1e-11;
 
 }  // namespace
 

@@ -4,14 +4,23 @@
 // proves the gap open; when little is left of the gap, the narrow phase gives a new axis. Because
 // the gap along any axis is a lower bound of the distance, no root is passed on the way; because
 // the bound is exact to second order, the last steps to a root converge quadratically.
+//
+// Source: lesson "Rigid Body Dynamics", slide "One-Side Approach"; Mirtich 1996.
+
+#include <algorithm>
 
 #include "poinsot/collision/touching_pair.h"
 
 namespace poinsot {
 namespace {
 
-constexpr std::uint64_t kMostPoses = 2000;
 constexpr double kSpent = 0.25;  // [-] of the gap an axis began with: a new one is asked for
+
+// [s] from the time gone to in which the gap provably stays open; at most `most`.
+double clear_for(const PairMotion& motion, const Vec3& n, double most) {
+  const double balls = motion.balls_apart_until(most);
+  return balls >= most ? balls : std::max(balls, motion.bound_along(n).clear_until(most));
+}
 
 }  // namespace
 
@@ -20,43 +29,34 @@ SearchResult search_conservative(const CoursePair& pair, const SearchSpan& span,
   PairMotion motion(pair, work);
   const std::uint64_t most_poses = work.poses + kMostPoses;
   NearestAxis axis;
-  if (const auto known = start_search(motion, axis, span, memory)) {
-    remember(motion, axis.n, memory);
-    return *known;
-  }
-  double began = axis.gap;
-  while (work.poses < most_poses) {
-    if (axis.gap <= kSpent * began || axis.gap <= motion.rounding()) {
+  auto result = start_search(motion, axis, span, memory);
+  double began = axis.gap;  // [m] with this axis
+  while (!result && work.poses < most_poses) {
+    if (axis.gap <= std::max(kSpent * began, motion.rounding())) {
       axis = nearest_axis(motion, axis.n);
       began = axis.gap;
     }
     if (axis.gap <= motion.rounding()) {
-      remember(motion, axis.n, memory);
-      switch (follow_touching(motion, axis, span.to, span.touch)) {
-        case Touching::approaches:
-        case Touching::pressed:
-          return meeting_at(motion, axis, Meeting::impact);
-        case Touching::stays:
-          return {Meeting::none, span.to, Vec3::Zero(), Vec3::Zero()};
-        case Touching::leaves:
-          began = axis.gap;
-          continue;
-      }
+      const Touching touching = follow_touching(motion, axis, span.to, span.touch);
+      began = axis.gap;
+      if (touching == Touching::stays)
+        result = no_meeting(span.to);
+      else if (touching != Touching::leaves)
+        result = meeting_at(motion, axis, Meeting::impact);
+      continue;
     }
     const double left = span.to - motion.time();
-    const double apart = motion.balls_apart_until(left);
-    const double x =
-        apart >= left ? apart : std::max(apart, motion.bound_along(axis.n).clear_until(left));
+    const double x = clear_for(motion, axis.n, left);
     if (x >= left) {
-      remember(motion, axis.n, memory);
-      return {Meeting::none, span.to, Vec3::Zero(), Vec3::Zero()};
+      result = no_meeting(span.to);
+    } else {
+      motion.go_to(std::min(span.to, motion.next_time(x)));
+      axis.n = first_axis(motion, axis.n);
+      axis.gap = motion.gap_along(axis.n);
     }
-    motion.go_to(motion.next_time(x));
-    axis.n = first_axis(motion, axis.n);
-    axis.gap = motion.gap_along(axis.n);
   }
   remember(motion, axis.n, memory);
-  return meeting_at(motion, axis, Meeting::unsure);
+  return result ? *result : meeting_at(motion, axis, Meeting::unsure);
 }
 
 }  // namespace poinsot

@@ -35,6 +35,10 @@ SearchResult meeting_at(const PairMotion& motion, const NearestAxis& axis, Meeti
   return {meeting, motion.time(), side * axis.n, axis.middle};
 }
 
+SearchResult no_meeting(double to) {
+  return {Meeting::none, to, Vec3::Zero(), Vec3::Zero()};
+}
+
 std::optional<SearchResult> start_search(PairMotion& motion, NearestAxis& axis,
                                          const SearchSpan& span, const SearchMemory& memory) {
   motion.go_to(span.from);
@@ -51,7 +55,7 @@ std::optional<SearchResult> start_search(PairMotion& motion, NearestAxis& axis,
     case Touching::leaves:
       return std::nullopt;
     case Touching::stays:
-      return SearchResult{Meeting::none, span.to, Vec3::Zero(), Vec3::Zero()};
+      return no_meeting(span.to);
     case Touching::pressed:
       break;
   }

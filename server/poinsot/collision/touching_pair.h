@@ -25,6 +25,9 @@ Touching follow_touching(PairMotion& motion, NearestAxis& axis, double to, doubl
 // The result of a search that ends at the time gone to.
 SearchResult meeting_at(const PairMotion& motion, const NearestAxis& axis, Meeting meeting);
 
+// The result of one in which nothing happens until `to` [s].
+SearchResult no_meeting(double to);
+
 // What is known at the start of a search: a result, if there is one already. Else the pair is out
 // of touch at the time gone to, along `axis`.
 std::optional<SearchResult> start_search(PairMotion& motion, NearestAxis& axis,
