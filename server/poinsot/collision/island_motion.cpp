@@ -18,7 +18,7 @@ constexpr double kPointsPerImpact = 16;
 // the island's clock.
 constexpr double kRestingSteps = 2;
 // A sub-step is cut to no less than this part of itself.
-constexpr double kLeastPart = 1.0 / 64;
+constexpr double kLeastPart = 1.0 / 256;
 
 bool is_known(const CollisionState& state, const PairRecord& record, double to) {
   return record.stamp_a == state.stamp[static_cast<std::size_t>(record.a)] &&
@@ -71,13 +71,15 @@ void IslandMotion::advance(CollisionState& state, Island& island, double t_end,
   island.strays.clear();
   double t = state.world().time;
   const double usual = kUsualSteps * state.def.contact_step;
+  const double impacts = state.def.max_impacts * std::max(1.0, (t_end - t) / usual);
   Frame frame{state,
               island,
               t_end,
               island_of,
               bound,
               island_of[static_cast<std::size_t>(island.bodies.front())],
-              state.def.max_impacts * std::max(1.0, (t_end - t) / usual),
+              impacts,
+              impacts * static_cast<double>(island.bodies.size()),
               state.def.impact_search == ImpactSearchKind::none};
   while (t < t_end && island.strays.empty()) {
     if (frame.crowded) {
@@ -97,9 +99,9 @@ void IslandMotion::bring_all(Frame& frame, double t) {
 }
 
 // Whether one more impact is located; if not, the rest of the frame is stepped.
-bool IslandMotion::afford(Frame& frame, double cost) {
-  frame.budget -= cost;
-  if (frame.budget >= 0) return true;
+bool IslandMotion::afford(Frame& frame, double& budget, double cost) {
+  budget -= cost;
+  if (budget >= 0) return true;
   frame.crowded = frame.island.result.crowded = true;
   return false;
 }
@@ -140,16 +142,16 @@ double IslandMotion::fly(Frame& frame, double t) {
     bring_all(frame, frame.t_end);
     return frame.t_end;
   }
-  if (!afford(frame, 1)) return t;
+  if (!afford(frame, frame.flights, 1)) return t;
   meet(frame, first);
   return first.time;
 }
 
 void IslandMotion::meet(Frame& frame, const Meet& at) {
   CollisionState& state = frame.state;
-  PairRecord& record = state.pairs[at.record];
-  response_.resolve(state, frame.island, at.record, at.time, record.normal, record.point, worker_);
-  if (response_.changed().empty()) record.standing = true;  // it only seemed to approach
+  response_.resolve(state, frame.island, frame.island_of, at.record, at.time, worker_);
+  if (!frame.island.strays.empty()) return;
+  if (response_.changed().empty()) state.pairs[at.record].standing = true;  // it only seemed to
   for (const Eigen::Index i : response_.changed()) watch(frame, i, at.time);
 }
 
@@ -247,7 +249,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   }
   for (const Eigen::Index i : step_.movers()) watch(frame, i, first.time);
   if (!frame.island.strays.empty() || first.record < 0) return first.time;
-  if (afford(frame, 1 + static_cast<double>(step_.points()) / kPointsPerImpact)) meet(frame, first);
+  if (afford(frame, frame.budget, 1 + static_cast<double>(step_.points()) / kPointsPerImpact)) meet(frame, first);
   return first.time;
 }
 
@@ -284,7 +286,7 @@ double IslandMotion::step_foreseeing(Frame& frame, double t) {
     }
     if (!frame.island.strays.empty()) return t;
     const ContactStep::Outcome outcome = step_.solve(state, books);
-    const double part = std::max(kLeastPart, step_.sound_part());
+    const double part = std::max(kLeastPart, step_.sound_part(state));
     to = part < 1 ? t + part * h : (steps == 1 ? frame.t_end : t + h);
     note(frame, outcome, books);
   }

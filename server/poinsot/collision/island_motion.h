@@ -48,7 +48,8 @@ class IslandMotion {
     std::span<const int> island_of;
     std::span<const Aabb> bound;
     int id;
-    double budget;  // impacts left to locate
+    double budget;   // impacts left to locate while contacts last …
+    double flights;  // … and while none does: then only the bodies that meet have to stop
     bool crowded;
   };
 
@@ -57,7 +58,7 @@ class IslandMotion {
   double step_foreseeing(Frame& frame, double t);
   Meet first_meeting(Frame& frame, double t, double to, bool in_contact);
   bool is_slow(Frame& frame, const PairRecord& record, double t, double h);
-  bool afford(Frame& frame, double cost);
+  bool afford(Frame& frame, double& budget, double cost);
   void meet(Frame& frame, const Meet& at);
   void advance_movers(Frame& frame, double t, double to);
   void watch(Frame& frame, Eigen::Index i, double t);
