@@ -122,6 +122,8 @@ Collider::Collider(Eigen::Index body_, const Shape& shape_, const Pose& in_body_
       in_body(in_body_),
       core_radius(radius_of_core(shape)),
       bounding_radius(poinsot::bounding_radius(shape)),
+      is_curved(std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape) ||
+                std::holds_alternative<Ellipsoid>(shape)),
       size(smallest_extent(shape)) {}
 
 Vec3 support(const Collider& collider, const Vec3& d) {
