@@ -188,6 +188,7 @@ TEST_P(EachPair, SwappingTheArgumentsGivesTheSameBits) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(ab.count); ++k) {
       ASSERT_EQ(ab.points[k].point, ba.points[k].point);
       ASSERT_EQ(ab.points[k].gap, ba.points[k].gap);
+      ASSERT_EQ(ab.points[k].feature, ba.points[k].feature);
     }
     const Gap one = find_gap(p.a, p.pose_a, p.b, p.pose_b),
               two = find_gap(p.b, p.pose_b, p.a, p.pose_a);
