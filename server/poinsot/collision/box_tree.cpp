@@ -12,6 +12,8 @@ namespace {
 constexpr double kTravelPerBuild = 1.0;
 // What one box may add to that [-]: it is no worse to be far away than to be elsewhere.
 constexpr double kMostTravel = 2.0;
+// From this share of boxes on, pairing all with all is cheaper than each that has changed with all.
+constexpr std::size_t kAllAtOnce = 3;
 
 struct Box4 {
   __m128 low[3], high[3];  // the same box in all lanes
@@ -39,8 +41,8 @@ unsigned overlaps(const Node& node, const Box4& box) {
   return static_cast<unsigned>(_mm_movemask_ps(all));
 }
 
-template <class F>
-void each_bit(unsigned bits, F&& f) {
+template <class Bits, class F>
+void each_bit(Bits bits, F&& f) {
   for (; bits != 0; bits &= bits - 1) f(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
@@ -63,21 +65,38 @@ __m128 across(const std::array<std::array<float, 4>, 3>& rows, Combine&& combine
 
 }  // namespace
 
-BoxTree::BoxTree(std::size_t boxes)
-    : boxes_(boxes), item_(boxes), slot_of_(boxes), place_(boxes), travel_scale_(boxes) {
-  for (std::size_t i = 0; i < boxes; ++i) item_[i] = slot_of_[i] = static_cast<std::int32_t>(i);
-  if (boxes > 0) build();
+BoxTree::BoxTree(std::span<const int> group)
+    : leaves_(group.size()), slot_of_(group.size()), travel_scale_(group.size()) {
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    leaves_[i].item = slot_of_[i] = static_cast<std::int32_t>(i);
+    leaves_[i].group = group[i];
+  }
+  changed_.resize(leaves_.size());
+  if (!leaves_.empty()) build();
 }
 
 void BoxTree::set(int i, const Aabb& box) {
   const std::size_t s = slot(i);
   note_travel(s, box);
-  boxes_[s] = box;
-  write(s);
+  leaves_[s].box = box;
+  write(leaves_[s]);
+  loose_.set(static_cast<std::size_t>(leaves_[s].node));
+  change(s);
+}
+
+void BoxTree::set_idle(int i, bool idle) {
+  const std::size_t s = slot(i);
+  leaves_[s].idle = idle;
+  change(s);
+}
+
+void BoxTree::change(std::size_t s) {
+  changes_ += !changed_.test(s);
+  changed_.set(s);
 }
 
 void BoxTree::note_travel(std::size_t s, const Aabb& to) {
-  const Aabb& from = boxes_[s];
+  const Aabb& from = leaves_[s].box;
   if (to.low[0] > to.high[0]) return;
   if (from.low[0] > from.high[0]) {
     travel_ += kMostTravel;
@@ -88,65 +107,57 @@ void BoxTree::note_travel(std::size_t s, const Aabb& to) {
   travel_ += std::min(sizes, kMostTravel);
 }
 
-void BoxTree::write(std::size_t s) {
-  const Place place = place_[s];
-  Node& node = nodes_[static_cast<std::size_t>(place.node)];
-  const auto lane = static_cast<std::size_t>(place.lane);
-  for (int k = 0; k < 3; ++k) {
-    node.low[static_cast<std::size_t>(k)][lane] = static_cast<float>(boxes_[s].low[k] - origin_[k]);
-    node.high[static_cast<std::size_t>(k)][lane] =
-        static_cast<float>(boxes_[s].high[k] - origin_[k]);
-  }
-  mark(place.node);
-}
-
-void BoxTree::mark(std::int32_t node) {
-  touched_[static_cast<std::size_t>(node) / 64] |= std::uint64_t{1} << (node % 64);
-}
-
-void BoxTree::update() {
-  if (travel_ > kTravelPerBuild * static_cast<double>(boxes_.size())) {
-    build();
-  } else {
-    refit();
+void BoxTree::write(const Leaf& leaf) {
+  Node& node = nodes_[static_cast<std::size_t>(leaf.node)];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    node.low[k][leaf.lane] = static_cast<float>(leaf.box.low[axis] - origin_[axis]);
+    node.high[k][leaf.lane] = static_cast<float>(leaf.box.high[axis] - origin_[axis]);
   }
 }
 
-// Children come after their parents, so that one walk from the back sees every node once.
+// Children come after their parents: one walk from the back sees each loose node once, after all
+// under it.
 void BoxTree::refit() {
-  for (std::size_t word = touched_.size(); word-- > 0;)
-    while (touched_[word] != 0) {
-      const auto bit = static_cast<std::size_t>(63 - std::countl_zero(touched_[word]));
-      touched_[word] &= ~(std::uint64_t{1} << bit);
-      const Node& node = nodes_[64 * word + bit];
-      if (node.parent < 0) continue;
-      const __m128 low = across(node.low, [](__m128 a, __m128 b) { return _mm_min_ps(a, b); });
-      const __m128 high = across(node.high, [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
-      alignas(16) std::array<float, 4> l, h;
-      _mm_store_ps(l.data(), low);
-      _mm_store_ps(h.data(), high);
-      Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
-      const auto lane = static_cast<std::size_t>(node.lane);
-      bool changed = false;
-      for (std::size_t k = 0; k < 3; ++k) {
-        changed |= parent.low[k][lane] != l[k] || parent.high[k][lane] != h[k];
-        parent.low[k][lane] = l[k];
-        parent.high[k][lane] = h[k];
-      }
-      if (changed) mark(node.parent);
-    }
+  loose_.drain_backwards([this](std::size_t node) { refit(node); });
+}
+
+void BoxTree::refit(std::size_t index) {
+  const Node& node = nodes_[index];
+  if (node.parent < 0) return;
+  Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
+  const auto lane = static_cast<std::size_t>(node.lane);
+  alignas(16) std::array<float, 4> low, high;
+  _mm_store_ps(low.data(), across(node.low, _mm_min_ps));
+  _mm_store_ps(high.data(), across(node.high, _mm_max_ps));
+  bool same = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    same &= parent.low[k][lane] == low[k] && parent.high[k][lane] == high[k];
+    parent.low[k][lane] = low[k];
+    parent.high[k][lane] = high[k];
+  }
+  if (!same) loose_.set(static_cast<std::size_t>(node.parent));
+}
+
+bool BoxTree::find_changed(std::vector<ColliderPair>& pairs) {
+  if (travel_ > kTravelPerBuild * static_cast<double>(leaves_.size())) build();
+  refit();
+  const bool all = changes_ * kAllAtOnce > leaves_.size();
+  if (all) {
+    find_all(pairs);
+  } else {
+    changed_.each([&](std::size_t s) { find(s, pairs); });
+  }
+  changed_.clear();
+  changes_ = 0;
+  return all;
 }
 
 void BoxTree::emit(std::int32_t a, std::int32_t b, std::vector<ColliderPair>& pairs) const {
-  const auto s = static_cast<std::size_t>(~a), t = static_cast<std::size_t>(~b);
-  if (s == t || !overlap(boxes_[s], boxes_[t])) return;
-  const int i = item_[s], j = item_[t];
-  pairs.push_back({i < j ? i : j, i < j ? j : i});
-}
-
-void BoxTree::find(int i, std::vector<ColliderPair>& pairs) {
-  tasks_[0] = {~static_cast<std::int32_t>(slot(i)), 0};
-  run(1, pairs);
+  const Leaf& s = leaves_[static_cast<std::size_t>(~a)];
+  const Leaf& t = leaves_[static_cast<std::size_t>(~b)];
+  if (s.group == t.group || (s.idle && t.idle) || !overlap(s.box, t.box)) return;
+  pairs.push_back({std::min(s.item, t.item), std::max(s.item, t.item)});
 }
 
 void BoxTree::find_all(std::vector<ColliderPair>& pairs) {
@@ -163,36 +174,59 @@ void BoxTree::find_all(std::vector<ColliderPair>& pairs) {
         }
       });
     }
-    run(tasks, pairs);
+    find_between(tasks, pairs);
   }
 }
 
-void BoxTree::run(std::size_t tasks, std::vector<ColliderPair>& pairs) {
+void BoxTree::find_between(std::size_t tasks, std::vector<ColliderPair>& pairs) {
+  Task* const stack = tasks_.data();
   const auto meet = [&](std::int32_t a, std::int32_t b) {
     if (a < 0 && b < 0) {
       emit(a, b, pairs);
     } else {
-      tasks_[tasks++] = b < 0 ? Task{b, a} : Task{a, b};
+      stack[tasks++] = b < 0 ? Task{b, a} : Task{a, b};
     }
   };
   while (tasks > 0) {
-    const auto [a, b] = tasks_[--tasks];
+    const auto [a, b] = stack[--tasks];
     const Node& right = nodes_[static_cast<std::size_t>(b)];
     if (a < 0) {
-      const Place place = place_[static_cast<std::size_t>(~a)];
-      const Box4 box = lane_of(nodes_[static_cast<std::size_t>(place.node)],
-                               static_cast<std::size_t>(place.lane));
+      const Leaf& leaf = leaves_[static_cast<std::size_t>(~a)];
+      const Box4 box = lane_of(nodes_[static_cast<std::size_t>(leaf.node)], leaf.lane);
       each_bit(overlaps(right, box), [&](std::size_t d) { meet(a, right.child[d]); });
-    } else {
-      const Node& left = nodes_[static_cast<std::size_t>(a)];
-      const Box4 whole = lane_of(nodes_[static_cast<std::size_t>(right.parent)],
-                                 static_cast<std::size_t>(right.lane));
-      each_bit(overlaps(left, whole), [&](std::size_t c) {
-        const std::int32_t child = left.child[c];
-        each_bit(overlaps(right, lane_of(left, c)),
-                 [&](std::size_t d) { meet(child, right.child[d]); });
-      });
+      continue;
     }
+    const Node& left = nodes_[static_cast<std::size_t>(a)];
+    const Box4 whole = lane_of(nodes_[static_cast<std::size_t>(right.parent)],
+                               static_cast<std::size_t>(right.lane));
+    each_bit(overlaps(left, whole), [&](std::size_t c) {
+      const std::int32_t child = left.child[c];
+      each_bit(overlaps(right, lane_of(left, c)),
+               [&](std::size_t d) { meet(child, right.child[d]); });
+    });
+  }
+}
+
+// A pair of two that have changed is that of the first.
+void BoxTree::find(std::size_t s, std::vector<ColliderPair>& pairs) {
+  const auto self = static_cast<std::int32_t>(s);
+  const Leaf& leaf = leaves_[s];
+  const Box4 box = lane_of(nodes_[static_cast<std::size_t>(leaf.node)], leaf.lane);
+  Task* const stack = tasks_.data();
+  std::size_t tasks = 0;
+  std::int32_t index = 0;
+  for (;;) {
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    each_bit(overlaps(node, box), [&](std::size_t d) {
+      const std::int32_t child = node.child[d];
+      if (child >= 0) {
+        stack[tasks++].b = child;
+      } else if (~child > self || !changed_.test(static_cast<std::size_t>(~child))) {
+        emit(~self, child, pairs);
+      }
+    });
+    if (tasks == 0) return;
+    index = stack[--tasks].b;
   }
 }
 

@@ -14,6 +14,8 @@ namespace poinsot {
 namespace {
 
 constexpr std::size_t kBins = 16;
+// So few boxes of one size are halved.
+constexpr std::size_t kFew = 16;
 // Centres closer than this [m] are one place.
 constexpr float kOnePlace = 1e-30f;
 // Sizes within an octave are one size (the fourth axis counts twice, as centres do).
@@ -100,16 +102,26 @@ Cut best_cut(const Items& items, const Binning& binning) {
 }  // namespace
 
 void BoxTree::build() {
-  const std::size_t n = boxes_.size();
+  const std::size_t n = leaves_.size();
   gather();
+  old_leaves_.swap(leaves_);
+  std::swap(was_changed_, changed_);
+  leaves_.clear();
+  leaves_.reserve(n);
   nodes_.clear();
   nodes_.reserve(n);
-  order_.clear();
   depth_ = 0;
-  add_node({0, n}, {-1, 0}, 1);
-  reorder();
-  touched_.assign((nodes_.size() + 63) / 64, 0);
-  for (std::size_t s = 0; s < n; ++s) write(s);
+  add_node({0, n}, -1, 0, 1);
+  loose_.resize(nodes_.size());
+  for (std::size_t k = 0; k < nodes_.size(); ++k) loose_.set(k);
+  changed_.resize(n);
+  for (std::size_t s = 0; s < n; ++s) {
+    Leaf& leaf = leaves_[s];
+    const auto item = static_cast<std::size_t>(leaf.item);
+    if (was_changed_.test(static_cast<std::size_t>(slot_of_[item]))) changed_.set(s);
+    slot_of_[item] = static_cast<std::int32_t>(s);
+    write(leaf);
+  }
   refit();
   scale_travel();
   // Two nodes against each other leave at most sixteen tasks behind at each level of both.
@@ -119,31 +131,35 @@ void BoxTree::build() {
 }
 
 void BoxTree::gather() {
-  const double share = 1 / static_cast<double>(boxes_.size());
+  const double share = 1 / static_cast<double>(leaves_.size());
   origin_.setZero();
-  for (const Aabb& box : boxes_)
-    if (box.low[0] <= box.high[0]) origin_ += 0.5 * share * box.low + 0.5 * share * box.high;
-  items_.resize(boxes_.size());
-  for (std::size_t s = 0; s < boxes_.size(); ++s) {
+  for (const Leaf& leaf : leaves_)
+    if (leaf.box.low[0] <= leaf.box.high[0])
+      origin_ += 0.5 * share * leaf.box.low + 0.5 * share * leaf.box.high;
+  items_.resize(leaves_.size());
+  for (std::size_t s = 0; s < leaves_.size(); ++s) {
     Item& item = items_[s];
-    item.slot = static_cast<std::int32_t>(s);
-    if (boxes_[s].low[0] > boxes_[s].high[0]) {
+    const Aabb& box = leaves_[s].box;
+    item.leaf = static_cast<std::int32_t>(s);
+    if (box.low[0] > box.high[0]) {
       item.low = item.high = {0, 0, 0, kNoSize};
       continue;
     }
     float size = 0;
     for (int k = 0; k < 3; ++k) {
-      const double low = boxes_[s].low[k] - origin_[k], high = boxes_[s].high[k] - origin_[k];
       const auto axis = static_cast<std::size_t>(k);
-      item.low[axis] = static_cast<float>(std::clamp(low, -kFarthest, kFarthest));
-      item.high[axis] = static_cast<float>(std::clamp(high, -kFarthest, kFarthest));
+      item.low[axis] =
+          static_cast<float>(std::clamp(box.low[k] - origin_[k], -kFarthest, kFarthest));
+      item.high[axis] =
+          static_cast<float>(std::clamp(box.high[k] - origin_[k], -kFarthest, kFarthest));
       size = std::max(size, item.high[axis] - item.low[axis]);
     }
     item.low[3] = item.high[3] = octaves(size);
   }
 }
 
-std::int32_t BoxTree::add_node(Range range, Place parent, std::size_t depth) {
+std::int32_t BoxTree::add_node(Range range, std::int32_t parent, std::size_t parent_lane,
+                               std::size_t depth) {
   const std::size_t index = nodes_.size();
   const auto self = static_cast<std::int32_t>(index);
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -153,29 +169,31 @@ std::int32_t BoxTree::add_node(Range range, Place parent, std::size_t depth) {
     node.high[k].fill(-kInfinity);
   }
   node.child.fill(0);
-  node.parent = parent.node;
-  node.lane = parent.lane;
+  node.parent = parent;
+  node.lane = static_cast<std::int32_t>(parent_lane);
   depth_ = std::max(depth_, depth);
 
   std::array<Range, kWidth> groups{range};
   std::size_t count = 1;
+  const std::size_t enough = range.count > kWidth ? kWidth : 1;
   const auto larger = [](const Range& a, const Range& b) { return a.count < b.count; };
   while (count < kWidth) {
     const auto last = groups.begin() + static_cast<std::ptrdiff_t>(count);
     Range& largest = *std::max_element(groups.begin(), last, larger);
-    if (largest.count < 2) break;
-    const std::size_t left = part(largest);
+    if (largest.count <= enough) break;
+    const std::size_t left = enough == 1 ? 1 : part(largest);
     groups[count++] = {largest.first + left, largest.count - left};
     largest.count = left;
   }
   for (std::size_t lane = 0; lane < count; ++lane) {
-    const Place here{self, static_cast<std::int32_t>(lane)};
     if (groups[lane].count == 1) {
-      nodes_[index].child[lane] = ~static_cast<std::int32_t>(order_.size());
-      place_[order_.size()] = here;
-      order_.push_back(items_[groups[lane].first].slot);
+      nodes_[index].child[lane] = ~static_cast<std::int32_t>(leaves_.size());
+      Leaf& leaf = leaves_.emplace_back(
+          old_leaves_[static_cast<std::size_t>(items_[groups[lane].first].leaf)]);
+      leaf.node = self;
+      leaf.lane = static_cast<std::uint8_t>(lane);
     } else {
-      const std::int32_t child = add_node(groups[lane], here, depth + 1);
+      const std::int32_t child = add_node(groups[lane], self, lane, depth + 1);
       nodes_[index].child[lane] = child;
     }
   }
@@ -184,9 +202,8 @@ std::int32_t BoxTree::add_node(Range range, Place parent, std::size_t depth) {
 
 // Parts the items of a range in two and returns how many are in the first part.
 std::size_t BoxTree::part(Range range) {
-  if (range.count == 2) return 1;
-  const auto first = items_.begin() + static_cast<std::ptrdiff_t>(range.first);
-  const std::span<Item> items(first, range.count);
+  const std::span<Item> items(items_.begin() + static_cast<std::ptrdiff_t>(range.first),
+                              range.count);
   Bounds4 centres;
   for (const Item& item : items) {
     const __m128 twice = _mm_add_ps(_mm_load_ps(item.low.data()), _mm_load_ps(item.high.data()));
@@ -194,11 +211,13 @@ std::size_t BoxTree::part(Range range) {
   }
   const std::array<float, 4> low = stored(centres.low);
   const std::array<float, 4> extent = stored(_mm_sub_ps(centres.high, centres.low));
+  const auto longest = static_cast<std::size_t>(
+      std::max_element(extent.begin(), extent.begin() + 3) - extent.begin());
+  if (range.count <= kFew && extent[3] <= kOneSize) return halve(items, longest);
+
   const auto binning = [&](std::size_t axis) {
     return Binning{axis, low[axis], static_cast<float>(kBins) / extent[axis]};
   };
-  const auto longest = static_cast<std::size_t>(
-      std::max_element(extent.begin(), extent.begin() + 3) - extent.begin());
   Cut cut;
   if (extent[longest] > kOnePlace) cut = best_cut(items, binning(longest));
   if (extent[3] > kOneSize) {
@@ -212,17 +231,13 @@ std::size_t BoxTree::part(Range range) {
   return static_cast<std::size_t>(middle - items.begin());
 }
 
-// Puts all that is kept per slot into the order of the new slots.
-void BoxTree::reorder() {
-  const std::size_t n = boxes_.size();
-  old_boxes_ = boxes_;
-  for (std::size_t s = 0; s < n; ++s) items_[s].slot = item_[s];
-  for (std::size_t s = 0; s < n; ++s) {
-    const auto old = static_cast<std::size_t>(order_[s]);
-    boxes_[s] = old_boxes_[old];
-    item_[s] = items_[old].slot;
-    slot_of_[static_cast<std::size_t>(item_[s])] = static_cast<std::int32_t>(s);
-  }
+// In two halves of full nodes.
+std::size_t BoxTree::halve(std::span<Item> items, std::size_t axis) {
+  const std::size_t left = kWidth * ((items.size() + 2 * kWidth - 1) / (2 * kWidth));
+  const auto centre = [axis](const Item& item) { return item.low[axis] + item.high[axis]; };
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
+                   [&](const Item& a, const Item& b) { return centre(a) < centre(b); });
+  return left;
 }
 
 void BoxTree::scale_travel() {

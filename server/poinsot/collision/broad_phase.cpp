@@ -8,9 +8,14 @@ namespace poinsot {
 namespace {
 
 // From this share of boxes on, pairing all anew is cheaper than pairing those that were set.
-constexpr std::size_t kAllAnew = 3;
-// Few pairs are sorted by comparing, many by counting.
-constexpr std::size_t kFewPairs = 8;
+// Fewer pairs than this share of the colliders are sorted by comparing, more by counting.
+constexpr std::size_t kFewPairs = 32;
+
+std::vector<int> bodies(std::span<const Collider> colliders) {
+  std::vector<int> result;
+  for (const Collider& collider : colliders) result.push_back(static_cast<int>(collider.body));
+  return result;
+}
 
 bool reaches(const Aabb& box, const Vec3& normal, double offset) {
   const Vec3 lowest = (normal.array() > 0).select(box.low, box.high);
@@ -20,15 +25,16 @@ bool reaches(const Aabb& box, const Vec3& normal, double offset) {
 }  // namespace
 
 BroadPhase::BroadPhase(std::span<const Collider> colliders)
-    : tree_(colliders.size()), touched_(colliders.size(), 0), row_(colliders.size() + 1) {
+    : body_(bodies(colliders)),
+      tree_(body_),
+      plane_of_(colliders.size(), -1),
+      touched_(colliders.size(), 0),
+      row_(colliders.size() + 1) {
   for (std::size_t i = 0; i < colliders.size(); ++i) {
-    const bool plane = std::holds_alternative<HalfSpace>(colliders[i].shape);
-    body_.push_back(colliders[i].body);
-    moves_.push_back(!plane);
-    plane_of_.push_back(plane ? static_cast<int>(planes_.size()) : -1);
-    if (plane)
-      planes_.push_back(
-          {static_cast<int>(i), Vec3::Zero(), std::numeric_limits<double>::infinity()});
+    if (!std::holds_alternative<HalfSpace>(colliders[i].shape)) continue;
+    plane_of_[i] = static_cast<int>(planes_.size());
+    planes_.push_back({static_cast<int>(i), Vec3::Zero(), std::numeric_limits<double>::infinity()});
+    tree_.set_idle(static_cast<int>(i), true);
   }
   list_.reserve(colliders.size());
   for (auto* list : {&pairs_, &found_, &scratch_}) list->reserve(16 * colliders.size());
@@ -56,9 +62,8 @@ bool BroadPhase::set(int i, const Aabb& box) {
 }
 
 void BroadPhase::set_moves(int i, bool moves) {
-  const auto k = static_cast<std::size_t>(i);
-  if (static_cast<bool>(moves_[k]) == moves) return;
-  moves_[k] = moves;
+  if (tree_.is_idle(i) != moves) return;
+  tree_.set_idle(i, !moves);
   touch(i);
 }
 
@@ -73,15 +78,13 @@ bool BroadPhase::set_plane(int i, const Vec3& normal_W, double offset_W) {
 
 std::span<const ColliderPair> BroadPhase::pairs() {
   if (list_.empty()) return pairs_;
-  tree_.update();
   found_.clear();
-  if (list_.size() * kAllAnew > touched_.size()) {
-    find_all();
-    sort_found();
+  const bool all = tree_.find_changed(found_);
+  find_under_planes(all);
+  sort_found();
+  if (all) {
     pairs_.swap(found_);
   } else {
-    find_touched();
-    sort_found();
     merge_found();
   }
   for (const int i : list_) touched_[static_cast<std::size_t>(i)] = 0;
@@ -89,44 +92,24 @@ std::span<const ColliderPair> BroadPhase::pairs() {
   return pairs_;
 }
 
-bool BroadPhase::may_pair(int i, int j) const {
-  const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-  return body_[a] != body_[b] && (moves_[a] | moves_[b]) != 0;
-}
-
-void BroadPhase::find_under(const Plane& plane, int i) {
-  if (may_pair(plane.collider, i) && reaches(tree_.box(i), plane.normal, plane.offset))
-    found_.push_back({std::min(plane.collider, i), std::max(plane.collider, i)});
-}
-
-void BroadPhase::find_all() {
-  tree_.find_all(found_);
-  std::erase_if(found_, [&](const ColliderPair& pair) { return !may_pair(pair.a, pair.b); });
-  for (const Plane& plane : planes_)
-    for (int i = 0; i < static_cast<int>(touched_.size()); ++i) find_under(plane, i);
-}
-
-// A pair of two touched ones is taken from the first.
-void BroadPhase::find_touched() {
-  const auto is_touched = [&](int i) { return touched_[static_cast<std::size_t>(i)] != 0; };
-  for (const int i : list_) {
-    if (const int plane = plane_of_[static_cast<std::size_t>(i)]; plane >= 0) {
-      for (int j = 0; j < static_cast<int>(touched_.size()); ++j)
-        if (!is_touched(j)) find_under(planes_[static_cast<std::size_t>(plane)], j);
-      continue;
+void BroadPhase::find_under_planes(bool all) {
+  for (const Plane& plane : planes_) {
+    if (!all && !touched_[static_cast<std::size_t>(plane.collider)]) {
+      for (const int i : list_) find_under(plane, i);
+    } else {
+      for (int i = 0; i < static_cast<int>(body_.size()); ++i) find_under(plane, i);
     }
-    const std::size_t before = found_.size();
-    tree_.find(i, found_);
-    std::size_t kept = before;
-    for (std::size_t k = before; k < found_.size(); ++k) {
-      const ColliderPair pair = found_[k];
-      if (may_pair(pair.a, pair.b) && (pair.a == i || !is_touched(pair.a))) found_[kept++] = pair;
-    }
-    found_.resize(kept);
-    for (const Plane& plane : planes_) find_under(plane, i);
   }
 }
 
+void BroadPhase::find_under(const Plane& plane, int i) {
+  if (tree_.is_idle(i) && tree_.is_idle(plane.collider)) return;
+  if (body_[static_cast<std::size_t>(i)] == body_[static_cast<std::size_t>(plane.collider)]) return;
+  if (reaches(tree_.box(i), plane.normal, plane.offset))
+    found_.push_back({std::min(plane.collider, i), std::max(plane.collider, i)});
+}
+
+// Counted into rows of equal a, each row then sorted by b.
 void BroadPhase::sort_found() {
   if (found_.size() * kFewPairs < touched_.size()) {
     std::sort(found_.begin(), found_.end());
@@ -138,25 +121,25 @@ void BroadPhase::sort_found() {
   scratch_.resize(found_.size());
   for (const ColliderPair& pair : found_) scratch_[row_[static_cast<std::size_t>(pair.a)]++] = pair;
   found_.swap(scratch_);
+  const auto at = [&](std::size_t k) { return found_.begin() + static_cast<std::ptrdiff_t>(k); };
   std::size_t first = 0;
   for (std::size_t i = 0; i + 1 < row_.size(); ++i) {
-    std::sort(found_.begin() + static_cast<std::ptrdiff_t>(first),
-              found_.begin() + static_cast<std::ptrdiff_t>(row_[i]));
+    if (row_[i] - first > 1) std::sort(at(first), at(row_[i]));
     first = row_[i];
   }
 }
 
 // Puts what was found in place of the pairs of those touched.
 void BroadPhase::merge_found() {
-  scratch_.clear();
-  auto next = found_.begin();
-  for (const ColliderPair& pair : pairs_) {
-    if (touched_[static_cast<std::size_t>(pair.a)] | touched_[static_cast<std::size_t>(pair.b)])
-      continue;
-    while (next != found_.end() && *next < pair) scratch_.push_back(*next++);
-    scratch_.push_back(pair);
+  const auto is_touched = [&](int i) { return touched_[static_cast<std::size_t>(i)]; };
+  std::size_t kept = 0;
+  for (const ColliderPair pair : pairs_) {
+    pairs_[kept] = pair;
+    kept += (is_touched(pair.a) | is_touched(pair.b)) == 0;
   }
-  scratch_.insert(scratch_.end(), next, found_.end());
+  pairs_.resize(kept);
+  scratch_.resize(kept + found_.size());
+  std::merge(pairs_.begin(), pairs_.end(), found_.begin(), found_.end(), scratch_.begin());
   pairs_.swap(scratch_);
 }
 
@@ -166,7 +149,7 @@ std::span<const ColliderPair> BroadPhase::pairs(std::span<const Aabb> tight,
   if (fresh) grown_.assign(tight.begin(), tight.end());
   for (std::size_t i = 0; i < tight.size(); ++i) {
     if (!fresh && grown_[i].contains(tight[i])) continue;
-    grown_[i] = tight[i].grown(moves_[i] ? reach[i] : 0);
+    grown_[i] = tight[i].grown(tree_.is_idle(static_cast<int>(i)) ? 0 : reach[i]);
     set(static_cast<int>(i), grown_[i]);
   }
   return pairs();

@@ -47,23 +47,20 @@ class BroadPhase {
   };
 
   void touch(int i);
-  bool may_pair(int i, int j) const;
-  void find_all();
-  void find_touched();
+  void find_under_planes(bool all);
   void find_under(const Plane& plane, int i);
   void sort_found();
   void merge_found();
 
-  BoxTree tree_;  // of all colliders; half-spaces stay empty
+  std::vector<int> body_;  // per collider
+  BoxTree tree_;           // of all colliders; half-spaces stay empty
   std::vector<Plane> planes_;
   std::vector<int> plane_of_;           // per collider: index in planes_; -1: it has a box
-  std::vector<Eigen::Index> body_;      // per collider
-  std::vector<unsigned char> moves_;    // per collider
   std::vector<unsigned char> touched_;  // per collider: to be paired anew
   std::vector<int> list_;               // of those touched
   std::vector<ColliderPair> pairs_, found_, scratch_;
-  std::vector<std::size_t> row_;  // per collider: where its pairs begin
-  std::vector<Aabb> grown_;       // per collider, of pairs(tight, reach)
+  std::vector<std::uint32_t> row_;  // per collider: where its pairs begin
+  std::vector<Aabb> grown_;         // per collider, of pairs(tight, reach)
 };
 
 }  // namespace poinsot

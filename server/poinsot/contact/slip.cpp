@@ -10,7 +10,7 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 
 constexpr double kTolerance = 1e-11;  // of a step, relative to the speed before the impact
-constexpr double kStopped = 1e-13;    // slip slower than this has stopped, relative likewise
+constexpr double kStopped = 1e-11;    // slip slower than this has stopped, relative likewise
 constexpr double kStraight = 1e-14;   // relative rate of turning taken as none
 constexpr int kSteps = 20'000;
 
@@ -117,7 +117,9 @@ Slip::State Slip::step(const State& y, double h, double friction, double* error)
     const State e = h * (71 * k1 / 57600 - 71 * k3 / 16695 + 71 * k4 / 1920 - 17253 * k5 / 339200 +
                          22 * k6 / 525 - k7 / 40);
     const double mass = 1 / A_(2, 2);
-    *error = std::max({e.head<2>().norm() / speed_, e.segment<3>(2).norm() / (mass * speed_),
+    // Slip about to stop is followed relative to itself, or it would never get there.
+    const double slip = std::min(speed_, 1e5 * next.head<2>().norm());
+    *error = std::max({e.head<2>().norm() / slip, e.segment<3>(2).norm() / (mass * speed_),
                        std::abs(e[5]) / (mass * speed_ * speed_)});
   }
   return next;
@@ -132,23 +134,23 @@ double Slip::overshoot(const State& y) const {
 // The step ends beyond the phase: shortened by false position (Illinois) until it ends with it.
 void Slip::land(const State& from, State& to, double h, double friction) const {
   double low = 0, high = h, at_low = overshoot(from), at_high = overshoot(to);
+  int side = 0;
   for (int i = 0; i < 100 && high - low > 1e-16 * h && at_high > 0; ++i) {
     double middle = low + (high - low) * (at_low / (at_low - at_high));
     if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
     const State trial = step(from, middle, friction, nullptr);
     const double value = overshoot(trial);
-    if (value > 0) {
+    if (value >= 0) {
+      if (side > 0) at_low *= 0.5;
       high = middle;
-      if (at_high <= value) at_low *= 0.5;
       at_high = value;
       to = trial;
+      side = 1;
     } else {
+      if (side < 0) at_high *= 0.5;
       low = middle;
       at_low = value;
-      if (value == 0) {
-        to = trial;
-        return;
-      }
+      side = -1;
     }
   }
 }
