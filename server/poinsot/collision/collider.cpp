@@ -147,6 +147,8 @@ Collider::Collider(Eigen::Index body_, const Shape& shape_, const Pose& in_body_
       in_body(in_body_),
       core_radius(radius_of_core(shape)),
       bounding_radius(poinsot::bounding_radius(shape)),
+      is_curved(std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape) ||
+                std::holds_alternative<Ellipsoid>(shape)),
       size(smallest_extent(shape)) {
   if (const auto* mesh = std::get_if<Mesh>(&shape)) surface = std::make_shared<MeshSurface>(*mesh);
 }
@@ -157,6 +159,7 @@ Collider::Collider(const Collider& mesh, int triangle_)
       in_body(mesh.in_body),
       core_radius(0),
       bounding_radius(mesh.bounding_radius),
+      is_curved(false),
       size(mesh.size),
       surface(mesh.surface),
       triangle(triangle_) {}

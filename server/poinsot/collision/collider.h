@@ -28,6 +28,7 @@ struct Collider {
   Pose in_body;            // of S in the frame of the centre of mass
   double core_radius;      // [m] swept about the core; 0 for shapes with edges
   double bounding_radius;  // [m] about S's origin; infinite for a half-space
+  bool is_curved;          // the core is: it has a cylinder's, cone's or ellipsoid's surface
   double size;             // [m] length that tolerances are relative to: the smallest extent, of a
                            // mesh and its triangles its largest
   std::shared_ptr<const MeshSurface> surface;  // of a mesh and its triangles

@@ -15,6 +15,9 @@
 namespace poinsot {
 namespace {
 
+// [-] of the smaller radius: a manifold may be of a depth this much larger than the least.
+constexpr double kManifoldAccuracy = 1e-4;
+
 char kernel(const Collider& a, const Collider& b) {
   return kPairTable[a.shape.index()][b.shape.index()];
 }
@@ -40,19 +43,21 @@ struct CoreQuery {
 
 CoreQuery query_cores(const ConvexPair& pair,
                       double enough = std::numeric_limits<double>::infinity(),
-                      const Vec3* first = nullptr) {
+                      const Vec3* first = nullptr, double accuracy = kEpaGap) {
   const double radii = pair.a.core_radius + pair.b.core_radius;
   const GjkResult near = gjk(pair, enough + radii, first);
   if (near.separated)
     return {{near.normal, near.on_a, near.on_b, near.distance - radii}, near.lower - radii, true};
-  const Penetration deep = penetration(pair, near);
+  const Penetration deep = penetration(pair, near, accuracy);
   // The depth is bounded from above: the gap from below.
   return {{deep.normal, deep.on_a, deep.on_b, -deep.lower - radii}, -deep.depth - radii, false};
 }
 
 // Beyond the margin the search may stop with coarse bounds: the manifold is empty either way.
 void general_manifold(const ConvexPair& pair, double margin, Manifold& manifold) {
-  const CoreQuery query = query_cores(pair, margin);
+  CoreQuery query = query_cores(pair, margin, nullptr, kManifoldAccuracy);
+  // A depth is a least one to rounding, even where the bound from the other side is coarse.
+  if (!query.apart) query.witness.gap = query.lower;
   manifold.clear();
   if (query.lower <= margin) build_manifold(pair, query.witness, margin, manifold);
 }
