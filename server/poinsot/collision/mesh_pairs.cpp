@@ -68,10 +68,10 @@ class MeshQuery {
   void manifolds(double margin, std::vector<Manifold>& out) {
     gather(margin);
     group();
-    const std::size_t before = out.size();
-    for (std::size_t k = 0; k < clusters_.size() && k < kMaxMeshManifolds; ++k) {
-      out.push_back(reduced(clusters_[k]));
-      to_world(out[before + k]);
+    out.resize(std::min(clusters_.size(), kMaxMeshManifolds));
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      out[k] = reduced(clusters_[k]);
+      to_world(out[k]);
     }
   }
 

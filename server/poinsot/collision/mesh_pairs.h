@@ -21,8 +21,8 @@ namespace poinsot {
 // b is a mesh or one of its triangles. In W.
 Gap gap_to_mesh(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b);
 
-// Appends the manifolds of points nearer than `margin`, one for each normal, the deepest first; at
-// most kMaxMeshManifolds. In W.
+// The manifolds of points nearer than `margin` [m], one for each normal, the deepest first; at most
+// kMaxMeshManifolds. Replaces `out`. In W.
 inline constexpr std::size_t kMaxMeshManifolds = 16;
 void mesh_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                     double margin, std::vector<Manifold>& out);

@@ -106,7 +106,6 @@ Gap gap_of_cores(const Collider& a, const Pose& pose_a, const Collider& b, const
 void deepest_mesh_manifold(const Collider& a, const Pose& pose_a, const Collider& b,
                            const Pose& pose_b, double margin, Manifold& manifold) {
   thread_local std::vector<Manifold> all;
-  all.clear();
   mesh_manifolds(a, pose_a, b, pose_b, margin, all);
   manifold.clear();
   if (!all.empty()) manifold = all.front();
@@ -145,17 +144,16 @@ void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, con
 }
 
 void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
-                    double margin, std::vector<Manifold>& out) {
-  const std::size_t before = out.size();
+                    double margin, std::vector<Manifold>& manifolds) {
   if (is_swapped(a, b)) {
-    find_manifolds(b, pose_b, a, pose_a, margin, out);
-    for (std::size_t i = before; i < out.size(); ++i) out[i].normal = -out[i].normal;
+    find_manifolds(b, pose_b, a, pose_a, margin, manifolds);
+    for (Manifold& manifold : manifolds) manifold.normal = -manifold.normal;
     return;
   }
-  if (kernel(a, b) == 'M') return mesh_manifolds(a, pose_a, b, pose_b, margin, out);
-  Manifold manifold;
-  find_manifold(a, pose_a, b, pose_b, margin, manifold);
-  if (manifold.count > 0) out.push_back(manifold);
+  if (kernel(a, b) == 'M') return mesh_manifolds(a, pose_a, b, pose_b, margin, manifolds);
+  manifolds.resize(1);
+  find_manifold(a, pose_a, b, pose_b, margin, manifolds.front());
+  if (manifolds.front().count == 0) manifolds.clear();
 }
 
 Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,

@@ -17,11 +17,10 @@ namespace poinsot {
 void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                    double margin, Manifold& manifold);
 
-// The same for shapes that may touch with more than one normal: appends a manifold of at most four
-// points for each, the deepest first, and nothing when there are no points. Only meshes have more
-// than one.
+// The same for pairs that may touch along several planes, as with a mesh: one manifold for each, the
+// deepest first; replaces `manifolds`.
 void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
-                    double margin, std::vector<Manifold>& out);
+                    double margin, std::vector<Manifold>& manifolds);
 
 // Signed distance of two shapes with a certificate: lower ≤ true gap ≤ value, up to the rounding of
 // the coordinates. Both bounds can be checked without trust: the points lie on the surfaces, and
