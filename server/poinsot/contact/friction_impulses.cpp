@@ -15,7 +15,7 @@ constexpr int kRounds = 8;           // projections, then Newton; twice as many 
 constexpr int kFirstProjections = 4;
 constexpr int kNewtonSteps = 14;
 constexpr Eigen::Index kNewtonPoints = 64;  // more: projections alone, a matrix costs (3n)³
-constexpr Eigen::Index kProjectionWork = 20'000'000;  // projections · points²
+constexpr Eigen::Index kProjectionWork = 4'000'000;  // projections · points²
 
 std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);

@@ -95,7 +95,7 @@ bool NormalImpulses::exchange() {
 bool NormalImpulses::pivot() {
   fewest_ = n_ + 1;
   patience_ = kPatience;
-  const Eigen::Index limit = 50 + 5 * n_;
+  const Eigen::Index limit = 200 + 20 * n_;
   for (Eigen::Index round = 0; round < limit; ++round) {
     if (!factored_) factor();
     solve_pushing();
@@ -130,8 +130,9 @@ bool NormalImpulses::solve(Eigen::Index n, const double* N, const double* u, dou
   }
   factored_ = false;
   shift_ = kShift;
-  bool done = false;
-  for (int step = 0; step < kProximalSteps && !done; ++step) {
+  // Once settled, one step more costs little and takes out what is below the mark.
+  bool done = false, ended = false;
+  for (int step = 0; step < kProximalSteps && !ended; ++step) {
     // Directions that N hardly sees (masses far apart) take many steps unless ε is small.
     if (step > 0 && step % kShiftSteps == 0 && shift_ > kLeastShift) {
       shift_ *= 0.1;
@@ -142,7 +143,8 @@ bool NormalImpulses::solve(Eigen::Index n, const double* N, const double* u, dou
       lambda_ = previous_;
       break;
     }
-    done = settled();
+    ended = done;
+    done = done || settled();
     previous_ = lambda_;
   }
   for (Eigen::Index i = 0; i < n; ++i) lambda[i] = scale_[at(i)] * std::max(0.0, lambda_[at(i)]);
