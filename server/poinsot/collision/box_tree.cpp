@@ -8,10 +8,12 @@
 namespace poinsot {
 namespace {
 
-// The tree is built anew when boxes have travelled this many sizes of their nodes, on average.
-constexpr double kTravelPerBuild = 1.0;
-// What one box may add to that [-]: it is no worse to be far away than to be elsewhere.
-constexpr double kMostTravel = 2.0;
+// The tree is built anew when searching a decayed one has cost about as much as building. What a
+// search of all boxes costs grows with their mean travel, in sizes of their nodes: by half after
+// one. Building costs twice a search.
+constexpr double kDebtPerBuild = 2.0;  // [-] per box
+// What one box may have travelled at once [-]: it is no worse to be far away than to be elsewhere.
+constexpr double kMostTravel = 4.0;
 // From this share of boxes on, pairing all with all is cheaper than each that has changed with all.
 constexpr std::size_t kAllAtOnce = 3;
 
@@ -140,7 +142,9 @@ void BoxTree::refit(std::size_t index) {
 }
 
 bool BoxTree::find_changed(std::vector<ColliderPair>& pairs) {
-  if (travel_ > kTravelPerBuild * static_cast<double>(leaves_.size())) build();
+  const auto n = static_cast<double>(leaves_.size());
+  debt_ += travel_ / n * static_cast<double>(changes_);
+  if (debt_ > kDebtPerBuild * n) build();
   refit();
   const bool all = changes_ * kAllAtOnce > leaves_.size();
   if (all) {

@@ -20,13 +20,9 @@
 #include <vector>
 
 #include "poinsot/collision/collider.h"
+#include "poinsot/collision/pair_list.h"
 
 namespace poinsot {
-
-struct ColliderPair {
-  int a, b;  // indices of colliders, a < b
-  friend auto operator<=>(const ColliderPair&, const ColliderPair&) = default;
-};
 
 // Bits that are walked in order.
 class BitSet {
@@ -142,6 +138,7 @@ class BoxTree {
   std::size_t depth_ = 0;         // nodes from the root to the lowest
   Vec3 origin_ = Vec3::Zero();    // [m] of the nodes' coordinates
   double travel_ = 0;             // [-] sizes of nodes, summed over boxes, since the last build
+  double debt_ = 0;               // [-] what searches since then have cost more for it
   std::size_t builds_ = 0;
 };
 

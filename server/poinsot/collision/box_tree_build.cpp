@@ -126,7 +126,7 @@ void BoxTree::build() {
   scale_travel();
   // Two nodes against each other leave at most sixteen tasks behind at each level of both.
   tasks_.resize(32 * depth_ + 32);
-  travel_ = 0;
+  travel_ = debt_ = 0;
   ++builds_;
 }
 
