@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <emmintrin.h>
+#include <limits>
 
 namespace poinsot {
 namespace {
@@ -14,8 +15,16 @@ namespace {
 constexpr double kDebtPerBuild = 2.0;  // [-] per box
 // What one box may have travelled at once [-]: it is no worse to be far away than to be elsewhere.
 constexpr double kMostTravel = 4.0;
+// Room for the tasks of any tree but a freak.
+constexpr std::size_t kTasksAtFirst = 2048;
 // From this share of boxes on, pairing all with all is cheaper than each that has changed with all.
 constexpr std::size_t kAllAtOnce = 3;
+
+// Finite, so that nothing overlaps a lane without a child.
+float single(double x) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -kLargest, kLargest));
+}
 
 struct Box4 {
   __m128 low[3], high[3];  // the same box in all lanes
@@ -74,6 +83,8 @@ BoxTree::BoxTree(std::span<const int> group)
     leaves_[i].group = group[i];
   }
   changed_.resize(leaves_.size());
+  loose_.resize(leaves_.size());
+  tasks_.reserve(kTasksAtFirst);
   if (!leaves_.empty()) build();
 }
 
@@ -104,17 +115,20 @@ void BoxTree::note_travel(std::size_t s, const Aabb& to) {
     travel_ += kMostTravel;
     return;
   }
-  const double moved = 0.5 * (to.low + to.high - from.low - from.high).cwiseAbs().maxCoeff();
-  const double sizes = moved * static_cast<double>(travel_scale_[s]);
-  travel_ += std::min(sizes, kMostTravel);
+  double moved = 0;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    moved = std::max(moved, std::abs(to.low[k] - from.low[k] + (to.high[k] - from.high[k])));
+  const double sizes = 0.5 * moved * static_cast<double>(travel_scale_[s]);
+  travel_ += sizes < kMostTravel ? sizes : kMostTravel;  // huge boxes may give no number
 }
 
 void BoxTree::write(const Leaf& leaf) {
   Node& node = nodes_[static_cast<std::size_t>(leaf.node)];
+  const auto lane = static_cast<std::size_t>(leaf.lane);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
-    node.low[k][leaf.lane] = static_cast<float>(leaf.box.low[axis] - origin_[axis]);
-    node.high[k][leaf.lane] = static_cast<float>(leaf.box.high[axis] - origin_[axis]);
+    node.low[k][lane] = single(leaf.box.low[axis] - origin_[axis]);
+    node.high[k][lane] = single(leaf.box.high[axis] - origin_[axis]);
   }
 }
 
