@@ -165,12 +165,13 @@ DifferencePoint difference_support(const ConvexPair& pair, const Vec3& d) {
   return {on_a - pair.support_b(-d), on_a};
 }
 
-GjkResult gjk(const ConvexPair& pair, double enough) {
+GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
   GjkResult result;
   Simplex s;
   const double touch = pair.at_least_rounding(kGjkTouch * pair.small);
   const double gap = pair.at_least_rounding(kGjkGap * pair.small);
-  Vec3 v = pair.c.squaredNorm() > 0 ? Vec3(-pair.c) : Vec3(Vec3::UnitX());
+  Vec3 v = first ? *first : Vec3(-pair.c);
+  if (!(v.squaredNorm() > 0)) v = Vec3::UnitX();
   double length = v.norm();
   bool touching = false;
 

@@ -71,6 +71,8 @@ struct GjkResult {
 };
 
 // Stops early, with coarse bounds, once the cores are known to be farther apart than `enough` [m].
-GjkResult gjk(const ConvexPair& pair, double enough = std::numeric_limits<double>::infinity());
+// `first`: the direction to try first, from B to A, any length, in A's frame.
+GjkResult gjk(const ConvexPair& pair, double enough = std::numeric_limits<double>::infinity(),
+              const Vec3* first = nullptr);
 
 }  // namespace poinsot

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "poinsot/base/check.h"
 #include "poinsot/collision/box_box.h"
@@ -27,17 +28,25 @@ bool is_swapped(const Collider& a, const Collider& b) {
 struct CoreQuery {
   Witness witness;  // gap: upper bound
   double lower;     // [m] of the gap
+  bool apart;       // the cores are
+
+  // From B to A: the way from core to surface. The normal proves the lower bound; the upper bound
+  // is that of the points.
+  Vec3 outward() const {
+    return apart ? Vec3((witness.on_a - witness.on_b).normalized()) : witness.normal;
+  }
 };
 
 CoreQuery query_cores(const ConvexPair& pair,
-                      double enough = std::numeric_limits<double>::infinity()) {
+                      double enough = std::numeric_limits<double>::infinity(),
+                      const Vec3* first = nullptr) {
   const double radii = pair.a.core_radius + pair.b.core_radius;
-  const GjkResult near = gjk(pair, enough + radii);
+  const GjkResult near = gjk(pair, enough + radii, first);
   if (near.separated)
-    return {{near.normal, near.on_a, near.on_b, near.distance - radii}, near.lower - radii};
+    return {{near.normal, near.on_a, near.on_b, near.distance - radii}, near.lower - radii, true};
   const Penetration deep = penetration(pair, near);
   // The depth is bounded from above: the gap from below.
-  return {{deep.normal, deep.on_a, deep.on_b, -deep.lower - radii}, -deep.depth - radii};
+  return {{deep.normal, deep.on_a, deep.on_b, -deep.lower - radii}, -deep.depth - radii, false};
 }
 
 // Beyond the margin the search may stop with coarse bounds: the manifold is empty either way.
@@ -65,6 +74,28 @@ struct LocalPlane {
     offset = plane.offset + normal_W.dot(pose_b.c - pose_a.c);
   }
 };
+
+Gap gap_to_half_space(const Collider& a, const Pose& pose_a, const HalfSpace& b,
+                      const Pose& pose_b) {
+  const LocalPlane plane(pose_a, b, pose_b);
+  const Vec3 lowest = support(a, -plane.normal) - a.core_radius * plane.normal;
+  const double gap = plane.normal.dot(lowest) - plane.offset;
+  return {gap, gap, pose_a.q * plane.normal, pose_a * lowest,
+          pose_a * Vec3(lowest - gap * plane.normal)};
+}
+
+Gap gap_of_cores(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                 const GapHint* hint) {
+  const ConvexPair pair(a, pose_a, b, pose_b);
+  const bool hinted = hint && hint->valid;
+  const Vec3 first = hinted ? Vec3(pose_a.q.conjugate() * hint->axis) : Vec3(-pair.c);
+  const CoreQuery query = query_cores(pair, std::numeric_limits<double>::infinity(), &first);
+  const Witness& near = query.witness;
+  const Vec3 n = query.outward();
+  return {near.gap, std::min(query.lower, near.gap), pose_a.q * near.normal,
+          pose_a * Vec3(near.on_a - a.core_radius * n),
+          pose_a * Vec3(near.on_b + b.core_radius * n)};
+}
 
 }  // namespace
 
@@ -96,15 +127,21 @@ void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, con
   }
 }
 
-Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b) {
-  if (is_swapped(a, b)) return find_gap(b, pose_b, a, pose_a);
-  if (kernel(a, b) == 'H') {
-    const LocalPlane plane(pose_a, std::get<HalfSpace>(b.shape), pose_b);
-    const double gap = plane.normal.dot(support(a, -plane.normal)) - plane.offset - a.core_radius;
-    return {gap, gap};
+Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+             GapHint* hint) {
+  if (is_swapped(a, b)) {
+    if (hint) hint->axis = -hint->axis;
+    Gap gap = find_gap(b, pose_b, a, pose_a, hint);
+    if (hint) hint->axis = -hint->axis;
+    gap.normal = -gap.normal;
+    std::swap(gap.point_a, gap.point_b);
+    return gap;
   }
-  const CoreQuery query = query_cores({a, pose_a, b, pose_b});
-  return {query.witness.gap, std::min(query.lower, query.witness.gap)};
+  const Gap gap = kernel(a, b) == 'H'
+                      ? gap_to_half_space(a, pose_a, std::get<HalfSpace>(b.shape), pose_b)
+                      : gap_of_cores(a, pose_a, b, pose_b, hint);
+  if (hint) *hint = {gap.normal, true};
+  return gap;
 }
 
 }  // namespace poinsot

@@ -15,11 +15,27 @@ namespace poinsot {
 void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                    double margin, Manifold& manifold);
 
-// Signed distance of two shapes with a certificate.
+// Signed distance of two shapes with a certificate: lower ≤ true gap ≤ value, up to the rounding of
+// the coordinates. Both bounds can be checked without trust: the points lie on the surfaces, and
+// the slab between the supports along the normal is `lower` wide, which also holds for penetrating
+// shapes.
 struct Gap {
-  double value = 0;  // [m] upper bound; negative: penetration depth
-  double lower = 0;  // [m] lower bound of the true gap
+  double value = 0;             // [m] upper bound; negative: penetration depth
+  double lower = 0;             // [m] lower bound of the true gap
+  Vec3 normal = Vec3::UnitZ();  // unit, in W, from b to a: the direction that proves `lower`
+  Vec3 point_a = Vec3::Zero();  // [m] in W: the nearest (deepest) points of the surfaces
+  Vec3 point_b = Vec3::Zero();
 };
-Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b);
+
+// What a pair may keep from query to query: the direction to try first. It changes the time a query
+// takes and the last bits of its answer, never the bounds' truth.
+struct GapHint {
+  Vec3 axis = Vec3::Zero();  // unit, in W, from b to a
+  bool valid = false;
+};
+
+// Symmetric as find_manifold() is. `hint` is read if valid, and updated.
+Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+             GapHint* hint = nullptr);
 
 }  // namespace poinsot

@@ -233,6 +233,32 @@ TEST(FindOverlaps, StaticBodiesMayOverlapEachOther) {
   EXPECT_TRUE(find_overlaps(scene).empty());
 }
 
+TEST(FindOverlaps, APairThatDoesNotCollideMayOverlap) {
+  Scene scene = empty_scene();
+  scene.bodies = {floor(), box("lower", {0, 0, 0.5}), box("upper", {0.2, 0.1, 1.4})};
+  ASSERT_EQ(find_overlaps(scene).size(), 1u);
+  PairDef pair;
+  pair.a = "upper";
+  pair.b = "lower";
+  pair.collide = false;
+  scene.pairs = {pair};
+  EXPECT_TRUE(find_overlaps(scene).empty());
+}
+
+TEST(FindOverlaps, AKinematicBodyMayOverlapWhatForcesDoNotMove) {
+  Scene scene = empty_scene();
+  BodyDef belt = box("belt", {0, 0, 0.4});
+  belt.is_kinematic = true;
+  belt.mass_properties = {};
+  scene.bodies = {floor(), belt};
+  EXPECT_TRUE(find_overlaps(scene).empty());
+  scene.bodies.push_back(box("load", {0, 0, 1.3}));
+  const std::vector<SceneFault> faults = find_overlaps(scene);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].what,
+            "body 'load' overlaps 'belt' by 0.1 m; move it, or set allow_overlap: true");
+}
+
 TEST(FindOverlaps, HalfSpacesCount) {
   Scene scene = empty_scene();
   BodyDef ground;

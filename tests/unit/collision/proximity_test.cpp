@@ -96,6 +96,30 @@ TEST_P(EachPair, LeastGapIsTheSignedDistance) {
   }
 }
 
+// The certificate, checked with the shapes' own closed forms: points on the surfaces, as far apart
+// as `value` says, and a slab along the normal as wide as `lower` says.
+TEST_P(EachPair, GapBringsItsOwnProof) {
+  const auto [kind_a, kind_b] = GetParam();
+  Random random(150 + static_cast<std::uint64_t>(10 * kind_a + kind_b));
+  GapHint hint;
+  for (int i = 0; i < 200; ++i) {
+    const Placed p = placed(kind_a, kind_b, random.uniform(-0.05, 0.3), random);
+    const Gap gap = find_gap(p.a, p.pose_a, p.b, p.pose_b, i % 2 ? &hint : nullptr);
+    ASSERT_NEAR(gap.normal.norm(), 1, 1e-12);
+    ASSERT_NEAR(separation(p.a.shape, p.pose_a, p.b.shape, p.pose_b, gap.normal), gap.lower, 1e-13)
+        << "case " << i;
+    if (gap.value > 0) {
+      ASSERT_NEAR((gap.point_a - gap.point_b).norm(), gap.value, 1e-13) << "case " << i;
+      ASSERT_LE(outside_by(p.a.shape, p.pose_a.inverse() * gap.point_a), 1e-13) << "case " << i;
+      ASSERT_LE(outside_by(p.b.shape, p.pose_b.inverse() * gap.point_b), 1e-13) << "case " << i;
+    }
+    if (i % 2) {
+      ASSERT_TRUE(hint.valid);
+      ASSERT_EQ(hint.axis, gap.normal);
+    }
+  }
+}
+
 TEST_P(EachPair, NothingIsFoundBeyondTheMargin) {
   const auto [kind_a, kind_b] = GetParam();
   Random random(200 + static_cast<std::uint64_t>(10 * kind_a + kind_b));
@@ -128,6 +152,9 @@ TEST_P(EachPair, SwappingTheArgumentsGivesTheSameBits) {
               two = find_gap(p.b, p.pose_b, p.a, p.pose_a);
     ASSERT_EQ(one.value, two.value);
     ASSERT_EQ(one.lower, two.lower);
+    ASSERT_EQ(one.normal, Vec3(-two.normal));
+    ASSERT_EQ(one.point_a, two.point_b);
+    ASSERT_EQ(one.point_b, two.point_a);
   }
 }
 
