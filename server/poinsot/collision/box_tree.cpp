@@ -17,6 +17,8 @@ constexpr double kDebtPerBuild = 2.0;  // [-] per box
 constexpr double kMostTravel = 4.0;
 // Room for the tasks of any tree but a freak.
 constexpr std::size_t kTasksAtFirst = 2048;
+// What was set is fetched so many leaves ahead: it lies anywhere.
+constexpr std::size_t kAhead = 12;
 // From this share of boxes on, pairing all with all is cheaper than each that has changed with all.
 constexpr std::size_t kAllAtOnce = 3;
 
@@ -77,9 +79,9 @@ __m128 across(const std::array<std::array<float, 4>, 3>& rows, Combine&& combine
 }  // namespace
 
 BoxTree::BoxTree(std::span<const int> group)
-    : leaves_(group.size()), slot_of_(group.size()), travel_scale_(group.size()) {
+    : items_(group.size()), leaves_(group.size()), travel_scale_(group.size()) {
   for (std::size_t i = 0; i < group.size(); ++i) {
-    leaves_[i].item = slot_of_[i] = static_cast<std::int32_t>(i);
+    leaves_[i].item = items_[i].slot = static_cast<std::int32_t>(i);
     leaves_[i].group = group[i];
   }
   changed_.resize(leaves_.size());
@@ -89,23 +91,36 @@ BoxTree::BoxTree(std::span<const int> group)
 }
 
 void BoxTree::set(int i, const Aabb& box) {
-  const std::size_t s = slot(i);
-  note_travel(s, box);
-  leaves_[s].box = box;
-  write(leaves_[s]);
-  loose_.set(static_cast<std::size_t>(leaves_[s].node));
-  change(s);
+  Item& item = items_[static_cast<std::size_t>(i)];
+  item.box = box;
+  change(item);
 }
 
 void BoxTree::set_idle(int i, bool idle) {
-  const std::size_t s = slot(i);
-  leaves_[s].idle = idle;
-  change(s);
+  Item& item = items_[static_cast<std::size_t>(i)];
+  item.idle = idle;
+  change(item);
 }
 
-void BoxTree::change(std::size_t s) {
+void BoxTree::change(const Item& item) {
+  const auto s = static_cast<std::size_t>(item.slot);
   changes_ += !changed_.test(s);
   changed_.set(s);
+}
+
+// In the order of the leaves, not of the calls: large trees do not fit into the cache.
+void BoxTree::take_up() {
+  changed_.each([this](std::size_t s) {
+    const std::size_t soon = std::min(s + kAhead, leaves_.size() - 1);
+    __builtin_prefetch(&items_[static_cast<std::size_t>(leaves_[soon].item)]);
+    Leaf& leaf = leaves_[s];
+    const Item& item = items_[static_cast<std::size_t>(leaf.item)];
+    note_travel(s, item.box);
+    leaf.box = item.box;
+    leaf.idle = item.idle;
+    write(leaf);
+    loose_.set(static_cast<std::size_t>(leaf.node));
+  });
 }
 
 void BoxTree::note_travel(std::size_t s, const Aabb& to) {
@@ -156,6 +171,7 @@ void BoxTree::refit(std::size_t index) {
 }
 
 bool BoxTree::find_changed(std::vector<ColliderPair>& pairs) {
+  take_up();
   const auto n = static_cast<double>(leaves_.size());
   debt_ += travel_ / n * static_cast<double>(changes_);
   if (debt_ > kDebtPerBuild * n) build();

@@ -1,6 +1,7 @@
 #include "poinsot/collision/collision_layer.h"
 
 #include <cmath>
+#include <utility>
 
 #include "poinsot/collision/frame_motion.h"
 

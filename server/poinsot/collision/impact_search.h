@@ -5,17 +5,20 @@
 //
 //   conservative  one-sided: advances by times in which the gap provably cannot close. It never
 //                 passes a root and never penetrates.
-//   backtracking  tests the end and bisects back, then finds the root by the gap's rate; it sees
-//                 only what samples at most kSampleTurn apart see.
-//   continuous    swept bounds decide whether the pair can meet at all; if it does, the motion is
-//                 backed up to the root.
+//   backtracking  tests poses a quarter radian or half a size apart and goes back from the first
+//                 that overlaps, by the gap's rate. It misses what happens between two of them.
+//   continuous    swept bounds of stretches of the motion, halved until they are apart or the pair
+//                 overlaps; then back up to the root. It misses nothing deeper than `touch`.
+//
+// README.md, section "Impact search", says why the first never misses, and what each costs.
 //
 // The contract of all three:
 //   Pairs farther apart than `touch` are followed until the gap has a root with the pair
 //   approaching: `Meeting::impact`, with |gap| at rounding and a later time than `from`.
 //   Pairs that start within `touch` and approach meet at once, at `from`. Those that start within
-//   it and part are followed on; those that neither approach nor get out of `touch` again, but are
-//   pressed together, are `Meeting::resting` at `from`: contacts that last.
+//   it and part are followed on; those that come back without having been out of `touch` are
+//   pressed together, `Meeting::resting` at `from`: contacts that last. Those that stay in touch
+//   with nothing to press them meet nothing.
 //   A pass that comes close without a root is no impact.
 
 #pragma once
@@ -26,6 +29,9 @@
 #include "poinsot/simulation/course.h"
 
 namespace poinsot {
+
+// Work of one call: what is left then is `unsure`.
+inline constexpr std::uint64_t kMostPoses = 2000;
 
 struct CoursePair {
   const Collider& a;

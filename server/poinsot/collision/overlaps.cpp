@@ -6,7 +6,7 @@
 
 #include "poinsot/collision/broad_phase.h"
 #include "poinsot/collision/collision_layer.h"
-#include "poinsot/collision/contact_set.h"
+#include "poinsot/collision/collision_state.h"
 #include "poinsot/collision/proximity.h"
 #include "poinsot/scene/pair_rules.h"
 

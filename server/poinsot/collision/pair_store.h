@@ -8,9 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "poinsot/base/check.h"
 #include "poinsot/base/hash.h"
 #include "poinsot/collision/broad_phase.h"
 #include "poinsot/collision/impact_search.h"
+#include "poinsot/collision/manifold.h"
 
 namespace poinsot {
 

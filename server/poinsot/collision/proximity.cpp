@@ -127,6 +127,13 @@ void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, con
   }
 }
 
+void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                    double margin, std::vector<Manifold>& manifolds) {
+  manifolds.resize(1);
+  find_manifold(a, pose_a, b, pose_b, margin, manifolds.front());
+  if (manifolds.front().count == 0) manifolds.clear();
+}
+
 Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
              GapHint* hint) {
   if (is_swapped(a, b)) {

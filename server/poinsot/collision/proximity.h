@@ -6,6 +6,8 @@
 
 #pragma once
 
+#include <vector>
+
 #include "poinsot/collision/manifold.h"
 
 namespace poinsot {
@@ -14,6 +16,10 @@ namespace poinsot {
 // exchanging a and b gives the same points and the opposite normal, bit for bit.
 void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                    double margin, Manifold& manifold);
+
+// The same for pairs that may touch along several planes, one manifold each; replaces `manifolds`.
+void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                    double margin, std::vector<Manifold>& manifolds);
 
 // Signed distance of two shapes with a certificate: lower ≤ true gap ≤ value, up to the rounding of
 // the coordinates. Both bounds can be checked without trust: the points lie on the surfaces, and
