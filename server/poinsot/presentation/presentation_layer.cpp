@@ -12,7 +12,7 @@ namespace poinsot {
 PresentationLayer::PresentationLayer(Scene scene)
     : scene_(std::move(scene)), collision_(scene_), held_(frame_rate()) {
   for (Eigen::Index i = 0; i < world().size(); ++i)
-    if (world().moves(i)) columns_.push_back(i);
+    if (world().moves(i) || world().is_kinematic(i)) columns_.push_back(i);
   snapshot_.bodies.resize(columns_.size());
   body_methods_.resize(columns_.size(), Method::none);
   hold_scene_wrenches();
@@ -28,7 +28,7 @@ void PresentationLayer::accept(std::span<const WrenchCommand> commands,
 
 void PresentationLayer::advance_frame() {
   ++frame_;
-  held_.apply_to(collision_.world(), frame_);
+  if (held_.changes(frame_)) held_.apply_to(collision_.world(), frame_);
   collision_.advance_to(static_cast<double>(frame_) / frame_rate());  // all physics is in here
   capture();
 }
