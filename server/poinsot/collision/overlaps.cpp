@@ -6,8 +6,9 @@
 
 #include "poinsot/collision/broad_phase.h"
 #include "poinsot/collision/collision_layer.h"
-#include "poinsot/collision/contact_set.h"
+#include "poinsot/collision/collision_state.h"
 #include "poinsot/collision/proximity.h"
+#include "poinsot/scene/pair_rules.h"
 
 namespace poinsot {
 namespace {
@@ -27,7 +28,7 @@ std::vector<SceneFault> find_overlaps(const Scene& scene) {
   std::vector<Aabb> boxes(colliders.size());
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     const BodyDef& body = scene.bodies[static_cast<std::size_t>(colliders[i].body)];
-    moves.push_back(!body.is_static);
+    moves.push_back(!body.is_static && !body.is_kinematic);
     const Pose of_center{body.pose * body.mass_properties.center_of_mass, body.pose.q};
     poses.push_back(of_center * colliders[i].in_body);
     if (!std::isinf(colliders[i].size)) boxes[i] = bounds(colliders[i], poses[i]);
@@ -36,9 +37,11 @@ std::vector<SceneFault> find_overlaps(const Scene& scene) {
   // The deepest of each pair of bodies.
   std::map<std::pair<Eigen::Index, Eigen::Index>, double> depths;
   BroadPhase broad_phase(colliders, moves);
+  const PairRules rules(scene);
   const std::vector<double> reach(colliders.size(), 0.0);
   for (const auto& [i, j] : broad_phase.pairs(boxes, reach)) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    if (!rules.collide(colliders[a].body, colliders[b].body)) continue;
     const double depth = -find_gap(colliders[a], poses[a], colliders[b], poses[b]).value;
     if (depth <= scene.collision.overlap * std::min(colliders[a].size, colliders[b].size)) continue;
     double& deepest = depths[{colliders[a].body, colliders[b].body}];

@@ -1,6 +1,7 @@
 #include "poinsot/simulation/course.h"
 
 #include "poinsot/math/elementary.h"
+#include "poinsot/simulation/simulation_layer.h"
 
 namespace poinsot {
 namespace {
@@ -79,7 +80,7 @@ Pose Course::at(double t) const {
     case Kind::driven:
       break;
   }
-  const Column y = preview_.state_at(preview_.context, body_, t);
+  const Column y = preview_.layer->preview(body_, preview_, t);
   return {y.head<3>(), Quat(y[6], y[3], y[4], y[5])};
 }
 
@@ -97,7 +98,7 @@ MovingPose Course::moving_at(double t) const {
     case Kind::driven:
       break;
   }
-  const Column y = preview_.state_at(preview_.context, body_, t);
+  const Column y = preview_.layer->preview(body_, preview_, t);
   const Quat q(y[6], y[3], y[4], y[5]);
   return {{y.head<3>(), q},
           {world_->inv_mass[static_cast<std::size_t>(body_)] * y.segment<3>(7),

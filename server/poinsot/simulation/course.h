@@ -17,10 +17,8 @@
 
 namespace poinsot {
 
-struct Velocity {
-  Vec3 linear = Vec3::Zero();   // [m/s] of the centre of mass, in W
-  Vec3 angular = Vec3::Zero();  // [rad/s] in W
-};
+class SimulationLayer;
+struct SimulationWorker;
 
 struct MovingPose {
   Pose pose;  // of the centre of mass, in W
@@ -30,11 +28,13 @@ struct MovingPose {
 class Course {
  public:
   enum class Kind { still, uniform, flight, driven };
-  // Column 13×1 of the body at time t, integrated from the start of the course.
-  using Column = Eigen::Matrix<double, 13, 1>;
+  using Column = Eigen::Matrix<double, 13, 1>;  // of a state
+  // Who integrates a driven body's state, which it has at `from`, to each time asked for.
   struct Preview {
-    Column (*state_at)(void* context, Eigen::Index body, double t) = nullptr;
-    void* context = nullptr;
+    SimulationLayer* layer = nullptr;
+    SimulationWorker* worker = nullptr;
+    double from = 0;  // [s]
+    bool in_contact = false;
   };
 
   Course() = default;  // still, at the origin
