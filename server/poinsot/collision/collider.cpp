@@ -133,7 +133,7 @@ Feature triangle_feature(const Collider& collider, const Vec3& d) {
   const double along = d.dot(collider.surface->normal(collider.triangle));
   if (std::abs(along) > kFromAside) {
     Feature f;
-    for (const std::size_t k : {0, 1, 2}) f.add(c[along > 0 ? k : 2 - k]);
+    for (const std::size_t k : {0, 1, 2}) f.add(c[along > 0 ? k : 2 - k], along > 0 ? k : 2 - k);
     return f;
   }
   std::size_t lowest = 0;  // the edge is across from it

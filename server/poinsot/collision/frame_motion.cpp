@@ -30,7 +30,6 @@ FrameMotion::FrameMotion(const Scene& scene)
       islands_(scene.bodies.size()),
       sleep_(scene.bodies.size()),
       rules_(scene),
-      bound_(state_.colliders.size()),
       bounded_(scene.bodies.size(), 0),
       excited_(scene.bodies.size(), 0),
       thrown_(scene.bodies.size(), 0) {
@@ -52,8 +51,8 @@ void FrameMotion::place_resting(Eigen::Index i) {
       broad_phase_.set_plane(k, normal, plane->offset + normal.dot(placed.c));
       continue;
     }
-    bound_[static_cast<std::size_t>(k)] = bounds(collider, collider_pose(collider, pose));
-    broad_phase_.set(k, bound_[static_cast<std::size_t>(k)]);
+    state_.bound[static_cast<std::size_t>(k)] = bounds(collider, collider_pose(collider, pose));
+    broad_phase_.set(k, state_.bound[static_cast<std::size_t>(k)]);
   }
   state_.bounds_until[static_cast<std::size_t>(i)] = kForEver;
   state_.body_time[static_cast<std::size_t>(i)] = world.time;
@@ -127,7 +126,7 @@ void FrameMotion::set_bounds(double t_end) {
     bool inside = true;  // boxes that were made with room may do
     for (const Collider& collider : state_.colliders_of(i)) {
       const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
-      inside = inside && bound_[c].contains(reach_box(state_, collider, world.time, t_end));
+      inside = inside && state_.bound[c].contains(reach_box(state_, collider, world.time, t_end));
     }
     if (inside) {
       bounded_[k] = state_.stamp[k];
@@ -145,8 +144,8 @@ void FrameMotion::set_bound(Eigen::Index i, double until, double more) {
   const auto k = static_cast<std::size_t>(i);
   for (const Collider& collider : state_.colliders_of(i)) {
     const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
-    bound_[c] = reach_box(state_, collider, state_.world().time, until).grown(more);
-    broad_phase_.set(static_cast<int>(c), bound_[c]);
+    state_.bound[c] = reach_box(state_, collider, state_.world().time, until).grown(more);
+    broad_phase_.set(static_cast<int>(c), state_.bound[c]);
     broad_phase_.set_moves(static_cast<int>(c), true);
   }
   bounded_[k] = state_.stamp[k];
@@ -236,7 +235,7 @@ void FrameMotion::excite(Eigen::Index i, double t_end, double speed) {
   double size = kForEver;
   for (const Collider& collider : state_.colliders_of(i)) {
     const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
-    inside = inside && bound_[c].contains(reach_box(state_, collider, now, t_end).grown(more));
+    inside = inside && state_.bound[c].contains(reach_box(state_, collider, now, t_end).grown(more));
     size = std::min(size, collider.size);
   }
   excited_[static_cast<std::size_t>(i)] = 1;
@@ -251,7 +250,7 @@ void FrameMotion::run_islands(double t_end, CollisionReport& report, CollisionTi
       Island& island = islands[k];
       if (island.done) return;
       motions_[static_cast<std::size_t>(thread)].advance(state_, island, t_end,
-                                                         islands_.island_of, bound_);
+                                                         islands_.island_of);
       island.done = island.strays.empty();
     });
     if (std::all_of(islands.begin(), islands.end(), [](const Island& i) { return i.done; })) break;

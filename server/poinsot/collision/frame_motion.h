@@ -46,7 +46,6 @@ class FrameMotion {
   Islands islands_;
   Sleep sleep_;
   PairRules rules_;
-  std::vector<Aabb> bound_;             // per collider
   std::vector<std::uint32_t> bounded_;  // stamp of the course that the boxes are of, per body
   std::vector<std::uint8_t> excited_;   // per body
   std::vector<double> thrown_;          // [m/s] per body: the speed that an impact may have

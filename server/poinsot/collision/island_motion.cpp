@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "poinsot/base/stopwatch.h"
+#include "poinsot/collision/mesh_pairs.h"
 #include "poinsot/collision/reach.h"
 
 namespace poinsot {
@@ -50,8 +51,12 @@ void IslandMotion::search(CollisionState& state, PairRecord& record, double t, d
                         state.course(record.a, horizon, in_contact, worker_),
                         state.colliders[static_cast<std::size_t>(record.pair.b)],
                         state.course(record.b, horizon, in_contact, worker_)};
-  const SearchResult found = search_by(state.def.impact_search, pair,
-                                       {from, horizon, state.touch(record)}, record.memory, work);
+  const SearchSpan span{from, horizon, state.touch(record)};
+  const bool mesh = std::holds_alternative<Mesh>(pair.a.shape) ||
+                    std::holds_alternative<Mesh>(pair.b.shape);
+  const SearchResult found =
+      mesh ? search_mesh(state, pair, span, work)
+           : search_by(state.def.impact_search, pair, span, record.memory, work);
   record.stamp_a = state.stamp[a];
   record.stamp_b = state.stamp[b];
   record.safe_until = found.time;
@@ -60,13 +65,44 @@ void IslandMotion::search(CollisionState& state, PairRecord& record, double t, d
   record.point = found.point;
 }
 
+// The first of all the triangles that the other shape may reach.
+SearchResult IslandMotion::search_mesh(CollisionState& state, const CoursePair& pair,
+                                       const SearchSpan& span, SearchWork& work) {
+  const bool mesh_is_a = std::holds_alternative<Mesh>(pair.a.shape);
+  const Collider& mesh = mesh_is_a ? pair.a : pair.b;
+  const Collider& other = mesh_is_a ? pair.b : pair.a;
+  const Course& course = mesh_is_a ? pair.course_a : pair.course_b;
+  const MovingPose start = course.moving_at(span.from);
+  const double carried =
+      (span.to - span.from) *
+      (start.velocity.linear.norm() +
+       state.arm[static_cast<std::size_t>(mesh.body)] * start.velocity.angular.norm());
+  triangles_.clear();
+  triangles_near(mesh, collider_pose(mesh, start.pose),
+                 state.bound[static_cast<std::size_t>(&other - state.colliders.data())].grown(
+                     (course.moves() ? carried : 0) + span.touch),
+                 triangles_);
+  SearchResult first{Meeting::none, span.to, Vec3::Zero(), Vec3::Zero()};
+  for (const int k : triangles_) {
+    const Collider triangle = triangle_collider(mesh, k);
+    const CoursePair one{mesh_is_a ? triangle : pair.a, pair.course_a,
+                         mesh_is_a ? pair.b : triangle, pair.course_b};
+    SearchMemory memory;
+    const SearchResult found = search_by(state.def.impact_search, one,
+                                         {span.from, first.time, span.touch}, memory, work);
+    if (found.meeting == Meeting::none) continue;
+    if (first.meeting == Meeting::none || found.time < first.time) first = found;
+  }
+  return first;
+}
+
 void IslandMotion::look_ahead(CollisionState& state, PairRecord& record, double t, double to,
                               double lasting, SearchWork& work) {
   if (!is_known(state, record, to)) search(state, record, t, to, lasting, false, work);
 }
 
 void IslandMotion::advance(CollisionState& state, Island& island, double t_end,
-                           std::span<const int> island_of, std::span<const Aabb> bound) {
+                           std::span<const int> island_of) {
   island.result.clear();
   island.strays.clear();
   double t = state.world().time;
@@ -76,7 +112,6 @@ void IslandMotion::advance(CollisionState& state, Island& island, double t_end,
               island,
               t_end,
               island_of,
-              bound,
               island_of[static_cast<std::size_t>(island.bodies.front())],
               impacts,
               impacts * static_cast<double>(island.bodies.size()),
@@ -166,7 +201,7 @@ void IslandMotion::watch(Frame& frame, Eigen::Index i, double t) {
   }
   for (const Collider& collider : state.colliders_of(i)) {
     const auto k = static_cast<std::size_t>(&collider - state.colliders.data());
-    if (frame.bound[k].contains(reach_box(state, collider, t, frame.t_end))) continue;
+    if (state.bound[k].contains(reach_box(state, collider, t, frame.t_end))) continue;
     frame.island.strays.push_back(i);
     return;
   }
