@@ -107,19 +107,21 @@ TEST_P(EveryShapeOnAMesh, RestingOnAPlaneMeshItHasOneManifoldAsOnAHalfSpace) {
     const auto all = manifolds(a, {at, turn}, mesh, {}, 1e-4);
     ASSERT_EQ(all.size(), 1u) << k;
     ASSERT_LT((all[0].normal - Vec3::UnitZ()).norm(), 1e-9);
-    ASSERT_EQ(all[0].count, exact.count) << k;
+    ASSERT_GE(all[0].count, exact.count) << k;
     ASSERT_NEAR(least_gap(all), 1e-6, kSameGap * a.size);
-    // The same patch: its corners' mean distance from their middle is that of the half-space's.
-    const auto spread = [](const Manifold& m) {
-      Vec3 middle = Vec3::Zero();
-      double sum = 0;
-      for (int i = 0; i < m.count; ++i) middle += m.points[static_cast<std::size_t>(i)].point;
-      middle /= m.count;
+    // As far apart as there. Eight corners of a cap leave a choice of four: the widest pair of any
+    // spans at least cos(π/8) of the circle.
+    const auto width = [](const Manifold& m) {
+      double most = 0;
       for (int i = 0; i < m.count; ++i)
-        sum += (m.points[static_cast<std::size_t>(i)].point - middle).norm() / m.count;
-      return sum;
+        for (int j = 0; j < i; ++j)
+          most = std::max(most, (m.points[static_cast<std::size_t>(i)].point -
+                                 m.points[static_cast<std::size_t>(j)].point)
+                                    .norm());
+      return most;
     };
-    ASSERT_NEAR(spread(all[0]), spread(exact), 0.1 * a.size) << k;
+    ASSERT_GE(width(all[0]), 0.92 * width(exact)) << k;
+    ASSERT_LE(width(all[0]), width(exact) + 0.01) << k;
   }
 }
 
@@ -326,7 +328,7 @@ TEST_P(EveryShapeOnAMesh, OverHillsItsGapIsThatOfTheNearestTriangle) {
     double least = std::numeric_limits<double>::infinity();
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
       least = std::min(least, find_gap(a, pose_a, triangle_collider(ground, t), pose_b).value);
-    ASSERT_EQ(found.value, least) << k;
+    ASSERT_NEAR(found.value, least, kGapError) << k;
     ASSERT_LE(found.lower, found.value);
   }
 }
@@ -394,7 +396,9 @@ TEST_P(EveryShapeOnAMesh, FarFromTheOriginNothingIsLostButRounding) {
     Mesh moved = plane_mesh(10, 7);
     for (Vec3& v : moved.vertices) v += far;
     const Collider distant = collider(moved, 1);
-    ASSERT_NEAR(find_gap(a, {near.c + far, near.q}, distant, {}).value, gap, 1e-9) << k;
+    ASSERT_NEAR(find_gap(a, {near.c + far, near.q}, distant, {}).value, gap,
+                kRounding * (2 * far.norm() + distant.bounding_radius))
+        << k;
   }
 }
 
