@@ -74,23 +74,24 @@ Feature cap(double r, double z, bool up) {
   const double side = up ? r : -r;
   const Vec3 x(r, 0, 0), y(0, side, 0), middle(0, 0, z);
   Feature f;
+  std::size_t id = up ? 0 : 8;
   for (const Vec3& p : {x, Vec3(kHalfRoot * (x + y)), y, Vec3(kHalfRoot * (y - x)), Vec3(-x),
                         Vec3(kHalfRoot * (-x - y)), Vec3(-y), Vec3(kHalfRoot * (x - y))})
-    f.add(p + middle);
+    f.add(p + middle, id++);
   return f;
 }
 
 Feature segment(const Vec3& a, const Vec3& b, double round_a, double round_b) {
   Feature f;
-  f.add(a);
-  f.add(b);
+  f.add(a, 16);
+  f.add(b, 17);
   f.round = {round_a, round_b};
   return f;
 }
 
 Feature point(const Vec3& p) {
   Feature f;
-  f.add(p);
+  f.add(p, 18);
   return f;
 }
 
@@ -105,7 +106,7 @@ Feature box_face(const Vec3& half, const Vec3& d) {
     p[axis] = side * half[axis];
     p[u] = s * half[u];
     p[v] = side * t * half[v];  // mirrored on the negative side: counter-clockwise from outside
-    f.add(p);
+    f.add(p, (p.x() > 0 ? 1u : 0u) + (p.y() > 0 ? 2u : 0u) + (p.z() > 0 ? 4u : 0u));
   }
   return f;
 }
@@ -117,8 +118,10 @@ Feature convex_face(const Convex& convex, const Vec3& d) {
   Feature f;  // a face of more corners is thinned evenly
   const std::size_t n = best->loop.size();
   const std::size_t kept = std::min<std::size_t>(n, Feature::kMaxCorners);
-  for (std::size_t i = 0; i < kept; ++i)
-    f.add(convex.vertices[static_cast<std::size_t>(best->loop[i * n / kept])]);
+  for (std::size_t i = 0; i < kept; ++i) {
+    const auto vertex = static_cast<std::size_t>(best->loop[i * n / kept]);
+    f.add(convex.vertices[vertex], vertex);
+  }
   return f;
 }
 
@@ -130,7 +133,7 @@ Feature triangle_feature(const Collider& collider, const Vec3& d) {
   const double along = d.dot(collider.surface->normal(collider.triangle));
   if (std::abs(along) > kFromAside) {
     Feature f;
-    for (const std::size_t k : {0, 1, 2}) f.add(c[along > 0 ? k : 2 - k]);
+    for (const std::size_t k : {0, 1, 2}) f.add(c[along > 0 ? k : 2 - k], along > 0 ? k : 2 - k);
     return f;
   }
   std::size_t lowest = 0;  // the edge is across from it

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -59,10 +60,13 @@ struct Feature {
   static constexpr int kMaxCorners = 16;
   std::array<Vec3, kMaxCorners> corners;  // [m]
   int count = 0;
+  std::array<std::uint16_t, kMaxCorners> id{};  // which corner of the shape, as long as it exists
   std::array<double, 2> round = {0, 0};  // [m] radius of the surface about an edge, at its ends
 
-  void add(const Vec3& corner) {
-    if (count < kMaxCorners) corners[static_cast<std::size_t>(count++)] = corner;
+  void add(const Vec3& corner, std::size_t corner_id) {
+    if (count == kMaxCorners) return;
+    id[static_cast<std::size_t>(count)] = static_cast<std::uint16_t>(corner_id);
+    corners[static_cast<std::size_t>(count++)] = corner;
   }
   const Vec3& operator[](int i) const { return corners[static_cast<std::size_t>(i)]; }
   double round_at(double t) const { return (1 - t) * round[0] + t * round[1]; }

@@ -16,14 +16,16 @@ double least_gap(const Manifold& m) {
   return least;
 }
 
-TEST(PairTable, HasNoHoleButTwoHalfSpaces) {
+TEST(PairTable, HasNoHoleButWhatNoForceMoves) {
   for (std::size_t a = 0; a < kShapeCount; ++a) {
     for (std::size_t b = 0; b < kShapeCount; ++b) {
       const char kernel = kPairTable[a][b];
       if (b < a) {
         EXPECT_EQ(kernel, ' ');
-      } else if (a == kHalfSpace) {
+      } else if (a >= kHalfSpace) {
         EXPECT_EQ(kernel, '-');
+      } else if (b == kMesh) {
+        EXPECT_EQ(kernel, 'M');
       } else {
         EXPECT_NE(std::string("FBGH").find(kernel), std::string::npos);
       }
@@ -188,6 +190,7 @@ TEST_P(EachPair, SwappingTheArgumentsGivesTheSameBits) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(ab.count); ++k) {
       ASSERT_EQ(ab.points[k].point, ba.points[k].point);
       ASSERT_EQ(ab.points[k].gap, ba.points[k].gap);
+      ASSERT_EQ(ab.points[k].feature, ba.points[k].feature);
     }
     const Gap one = find_gap(p.a, p.pose_a, p.b, p.pose_b),
               two = find_gap(p.b, p.pose_b, p.a, p.pose_a);
