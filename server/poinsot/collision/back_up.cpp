@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "poinsot/collision/axis_turn.h"
+
 namespace poinsot {
 namespace {
 
@@ -26,7 +28,7 @@ NearestAxis back_up(PairMotion& motion, double apart, double overlaps, const Nea
     (now.gap > 0 ? apart : overlaps) = t;
     const double middle = apart + 0.5 * (overlaps - apart);
     if (middle <= apart || middle >= overlaps) break;
-    const double rate = motion.bound_along(now.n).slope();
+    const double rate = gap_rate(motion, now);
     const double newton = t - now.gap / rate;
     const bool trusted = shrinks && rate < 0 && newton > apart && newton < overlaps;
     t = trusted ? newton : middle;

@@ -70,6 +70,19 @@ TEST(TouchingPair, ACornerThatLiftsFastLeavesHoweverPessimisticTheBound) {
   EXPECT_EQ(follow(spinner, ground()).touching, Touching::leaves);
 }
 
+TEST(TouchingPair, WhatLeavesATurningPlateDoesSoWhereItIs) {
+  // The plate's far corners move at 2 m/s, the place below the box at 0.5 m/s.
+  const Quat corner = Quat::FromTwoVectors(Vec3(-1, -1, -1), -Vec3::UnitZ());
+  for (const double turn : {-1.0, 1.0}) {
+    const BodyDef plate = moving(Box{{4, 4, 0.1}}, {0, 0, -0.05}, Vec3::Zero(), Vec3(0, turn, 0));
+    for (const double v : {-0.1, 0.1}) {
+      const BodyDef box = moving(Box{{0.2, 0.2, 0.2}}, {0.5, 0, std::sqrt(3.0) * 0.1},
+                                 {0, 0, v - 0.5 * turn}, Vec3::Zero(), corner);
+      EXPECT_EQ(follow(box, plate, 0).touching, v < 0 ? Touching::approaches : Touching::leaves);
+    }
+  }
+}
+
 TEST(TouchingPair, AWheelThatSpinsInPlaceEndsInBoundedWork) {
   const Followed f = follow(wheel(0, 10), floor(), 0);
   EXPECT_TRUE(f.touching == Touching::pressed || f.touching == Touching::stays);
