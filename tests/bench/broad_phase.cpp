@@ -13,6 +13,8 @@
 
 #include "crowds.h"
 #include "fcl_tree.h"
+#include "level_grid.h"
+#include "sweep.h"
 
 namespace poinsot::bench {
 namespace {
@@ -78,9 +80,13 @@ void report(const Kind& kind, int n) {
   for (const double share : {1.0, 0.1, 0.01}) {
     const Result ours = measure<BroadPhase>(crowd, share);
     const Result fcl = measure<FclTree>(crowd, share);
-    std::printf("%-9s %6d %5.0f%% %9.1f  %9.4f %9.4f  %5.1f %s\n", kind.name, n, 100 * share,
-                static_cast<double>(ours.pairs) / n, ours.ms, fcl.ms, fcl.ms / ours.ms,
-                ours.pairs == fcl.pairs ? "" : "DIFFER");
+    const Result grid = measure<LevelGrid>(crowd, share);
+    const Result sweep = measure<Sweep>(crowd, share);
+    const bool agree =
+        ours.pairs == fcl.pairs && ours.pairs == grid.pairs && ours.pairs == sweep.pairs;
+    std::printf("| %-8s | %6d | %4.0f%% | %5.1f | %8.4f | %8.4f | %8.4f | %9.4f | %5.1f |%s\n",
+                kind.name, n, 100 * share, static_cast<double>(ours.pairs) / n, ours.ms, fcl.ms,
+                grid.ms, sweep.ms, fcl.ms / ours.ms, agree ? "" : " PAIRS DIFFER");
     std::fflush(stdout);
   }
 }
@@ -90,7 +96,12 @@ void report(const Kind& kind, int n) {
 
 int main(int argc, char** argv) {
   using namespace poinsot::bench;
-  std::printf("crowd     bodies   set pairs/body  ms: ours      FCL  ratio\n");
+  std::printf(
+      "| crowd    | bodies |   set | pairs |     ours |      FCL |     grid |     sweep | ratio "
+      "|\n");
+  std::printf(
+      "|----------|-------:|------:|------:|---------:|---------:|---------:|----------:|------:|"
+      "\n");
   for (const Kind& kind : kKinds)
     if (argc < 2 || std::string(argv[1]) == kind.name)
       for (const int n : {100, 1000, 10000, 50000})

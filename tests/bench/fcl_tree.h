@@ -17,12 +17,12 @@ namespace poinsot::bench {
 
 class FclTree {
  public:
-  explicit FclTree(std::span<const Collider> colliders) {
+  explicit FclTree(std::span<const Collider> colliders) : pairs_(colliders.size()) {
     const auto geometry = std::make_shared<fcl::Sphered>(1.0);  // never queried
     for (const Collider& collider : colliders) {
       size_.push_back(collider.size);
       moves_.push_back(true);
-      is_set_.push_back(false);
+      is_set_.push_back(0);
       leaves_.push_back(std::make_unique<Leaf>(static_cast<int>(leaves_.size()), geometry));
     }
   }
@@ -36,28 +36,26 @@ class FclTree {
     aabb.min_ = box.low;
     aabb.max_ = box.high;
     if (!is_set_[k]) list_.push_back(i);
-    is_set_[k] = true;
+    is_set_[k] = 1;
   }
 
   std::span<const ColliderPair> pairs() {
-    if (list_.empty()) return pairs_;
+    if (list_.empty()) return pairs_.pairs();
     if (!tree_ || travel_ > 2.0 * static_cast<double>(leaves_.size())) {
       rebuild();
     } else {
       tree_->update();
     }
-    found_.clear();
     // A query for each costs more than twice as much as all against all.
     if (list_.size() > leaves_.size() / 7) {
       tree_->collide(this, add);
-      std::sort(found_.begin(), found_.end());
-      pairs_.swap(found_);
+      pairs_.replace_all();
     } else {
       query_set();
     }
-    for (const int i : list_) is_set_[static_cast<std::size_t>(i)] = false;
+    for (const int i : list_) is_set_[static_cast<std::size_t>(i)] = 0;
     list_.clear();
-    return pairs_;
+    return pairs_.pairs();
   }
 
  private:
@@ -69,12 +67,19 @@ class FclTree {
   };
 
   static bool add(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* self) {
-    const int i = static_cast<Leaf*>(a)->index, j = static_cast<Leaf*>(b)->index;
-    auto* tree = static_cast<FclTree*>(self);
-    if (i != j &&
-        (tree->moves_[static_cast<std::size_t>(i)] || tree->moves_[static_cast<std::size_t>(j)]))
-      tree->found_.push_back({std::min(i, j), std::max(i, j)});
+    static_cast<FclTree*>(self)->take(static_cast<Leaf*>(a)->index, static_cast<Leaf*>(b)->index);
     return false;
+  }
+  static bool add_one(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* self) {
+    auto* tree = static_cast<FclTree*>(self);
+    const int i = static_cast<int>(tree->asking_);
+    const int j = static_cast<Leaf*>(a)->index + static_cast<Leaf*>(b)->index - i;
+    if (j > i || !tree->is_set_[static_cast<std::size_t>(j)]) tree->take(i, j);
+    return false;
+  }
+  void take(int i, int j) {
+    if (i != j && (moves_[static_cast<std::size_t>(i)] || moves_[static_cast<std::size_t>(j)]))
+      pairs_.found().push_back({std::min(i, j), std::max(i, j)});
   }
 
   void rebuild() {
@@ -86,29 +91,22 @@ class FclTree {
     travel_ = 0;
   }
 
+  // A pair of two that were set is that of the first.
   void query_set() {
-    for (const int i : list_) tree_->collide(leaves_[static_cast<std::size_t>(i)].get(), this, add);
-    std::sort(found_.begin(), found_.end());
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-    merged_.clear();
-    auto next = found_.begin();
-    for (const ColliderPair& pair : pairs_) {
-      if (is_set_[static_cast<std::size_t>(pair.a)] || is_set_[static_cast<std::size_t>(pair.b)])
-        continue;
-      while (next != found_.end() && *next < pair) merged_.push_back(*next++);
-      merged_.push_back(pair);
-    }
-    merged_.insert(merged_.end(), next, found_.end());
-    pairs_.swap(merged_);
+    for (asking_ = 0; asking_ < size_.size(); ++asking_)
+      if (is_set_[asking_]) tree_->collide(leaves_[asking_].get(), this, add_one);
+    pairs_.replace_touched(is_set_);
   }
 
   std::vector<double> size_;  // [m]
-  std::vector<bool> moves_, is_set_;
+  std::vector<bool> moves_;
+  std::vector<unsigned char> is_set_;
   std::vector<std::unique_ptr<Leaf>> leaves_;
   std::vector<int> list_;
   std::unique_ptr<fcl::DynamicAABBTreeCollisionManagerd> tree_;
   double travel_ = 0;  // [-] sizes, summed
-  std::vector<ColliderPair> pairs_, found_, merged_;
+  std::size_t asking_ = 0;
+  PairList pairs_;
 };
 
 }  // namespace poinsot::bench

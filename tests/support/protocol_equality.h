@@ -45,6 +45,7 @@ inline void expect_same(const BodyInfo& a, const BodyInfo& b) {
   EXPECT_EQ(a.count, b.count);
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.is_static, b.is_static);
+  EXPECT_EQ(a.is_kinematic, b.is_kinematic);
   EXPECT_EQ(a.mass_properties.mass, b.mass_properties.mass);
   EXPECT_EQ(a.mass_properties.center_of_mass, b.mass_properties.center_of_mass);
   EXPECT_EQ(a.mass_properties.J, b.mass_properties.J);

@@ -156,8 +156,10 @@ std::string list_text(const std::string& world, const RunReport& report,
                                  state_name(report.state), report.frame.frame,
                                  report.frame.sim_time, report.frame_rate, bodies.size());
   for (const BodyInfo& body : bodies) {
-    const std::string mass =
-        body.is_static ? "static" : fmt::format("{:.4g} kg", body.mass_properties.mass);
+    const std::string mass = body.is_static ? "static"
+                             : body.is_kinematic
+                                 ? "kinematic"
+                                 : fmt::format("{:.4g} kg", body.mass_properties.mass);
     text += fmt::format("  {:<20} {:<12} {}\n", body.name, mass, shape_text(body));
   }
   return text;

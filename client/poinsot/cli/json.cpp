@@ -215,9 +215,12 @@ std::string list_json(const std::string& world, const RunReport& report,
                       const std::vector<BodyInfo>& bodies) {
   Json list = Json::array();
   for (const BodyInfo& body : bodies) {
-    list.push_back({{"name", body.name},
-                    {"static", body.is_static},
-                    {"mass", body.is_static ? Json(nullptr) : Json(body.mass_properties.mass)}});
+    list.push_back(
+        {{"name", body.name},
+         {"static", body.is_static},
+         {"kinematic", body.is_kinematic},
+         {"mass",
+          body.is_static || body.is_kinematic ? Json(nullptr) : Json(body.mass_properties.mass)}});
   }
   return line({{"world", world},
                {"state", name_of<RunState>(kRunStateNames, report.state)},

@@ -25,7 +25,7 @@
 namespace poinsot {
 
 std::string to_message(const PoseSnapshot& in, msg::v1::PoseFrame& out);
-std::string to_message(const BodyInfo& in, msg::v1::BodyDescription& out);
+std::string to_message(const BodyInfo& in, msg::v2::BodyDescription& out);
 std::string to_message(const RunReport& in, msg::v3::RunStatus& out);
 std::string to_message(const WrenchCommand& in, msg::v1::BodyWrench& out);
 std::string to_message(const RunControl& in, msg::v1::RunRequest& out);
@@ -33,7 +33,7 @@ std::string to_message(const Reply& in, msg::v1::CommandReply& out);
 std::string to_message(const ImpactNotice& in, msg::v1::ImpactEvent& out);
 
 std::string from_message(const msg::v1::PoseFrame& in, PoseSnapshot& out);
-std::string from_message(const msg::v1::BodyDescription& in, BodyInfo& out);
+std::string from_message(const msg::v2::BodyDescription& in, BodyInfo& out);
 std::string from_message(const msg::v3::RunStatus& in, RunReport& out);
 std::string from_message(const msg::v1::BodyWrench& in, WrenchCommand& out);
 std::string from_message(const msg::v1::RunRequest& in, RunControl& out);

@@ -37,7 +37,7 @@ struct MessageType<PoseSnapshot> {
 };
 template <>
 struct MessageType<BodyInfo> {
-  using Support = SafeSupport<msg::v1::BodyDescriptionPubSubType>;
+  using Support = SafeSupport<msg::v2::BodyDescriptionPubSubType>;
 };
 template <>
 struct MessageType<RunReport> {

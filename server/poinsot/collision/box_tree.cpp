@@ -4,16 +4,29 @@
 #include <bit>
 #include <cmath>
 #include <emmintrin.h>
+#include <limits>
 
 namespace poinsot {
 namespace {
 
-// The tree is built anew when boxes have travelled this many sizes of their nodes, on average.
-constexpr double kTravelPerBuild = 1.0;
-// What one box may add to that [-]: it is no worse to be far away than to be elsewhere.
-constexpr double kMostTravel = 2.0;
+// The tree is built anew when searching a decayed one has cost about as much as building. What a
+// search of all boxes costs grows with their mean travel, in sizes of their nodes: by half after
+// one. Building costs twice a search.
+constexpr double kDebtPerBuild = 2.0;  // [-] per box
+// What one box may have travelled at once [-]: it is no worse to be far away than to be elsewhere.
+constexpr double kMostTravel = 4.0;
+// Room for the tasks of any tree but a freak.
+constexpr std::size_t kTasksAtFirst = 2048;
+// What was set is fetched so many leaves ahead: it lies anywhere.
+constexpr std::size_t kAhead = 12;
 // From this share of boxes on, pairing all with all is cheaper than each that has changed with all.
 constexpr std::size_t kAllAtOnce = 3;
+
+// Finite, so that nothing overlaps a lane without a child.
+float single(double x) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -kLargest, kLargest));
+}
 
 struct Box4 {
   __m128 low[3], high[3];  // the same box in all lanes
@@ -66,33 +79,48 @@ __m128 across(const std::array<std::array<float, 4>, 3>& rows, Combine&& combine
 }  // namespace
 
 BoxTree::BoxTree(std::span<const int> group)
-    : leaves_(group.size()), slot_of_(group.size()), travel_scale_(group.size()) {
+    : items_(group.size()), leaves_(group.size()), travel_scale_(group.size()) {
   for (std::size_t i = 0; i < group.size(); ++i) {
-    leaves_[i].item = slot_of_[i] = static_cast<std::int32_t>(i);
+    leaves_[i].item = items_[i].slot = static_cast<std::int32_t>(i);
     leaves_[i].group = group[i];
   }
   changed_.resize(leaves_.size());
+  loose_.resize(leaves_.size());
+  tasks_.reserve(kTasksAtFirst);
   if (!leaves_.empty()) build();
 }
 
 void BoxTree::set(int i, const Aabb& box) {
-  const std::size_t s = slot(i);
-  note_travel(s, box);
-  leaves_[s].box = box;
-  write(leaves_[s]);
-  loose_.set(static_cast<std::size_t>(leaves_[s].node));
-  change(s);
+  Item& item = items_[static_cast<std::size_t>(i)];
+  item.box = box;
+  change(item);
 }
 
 void BoxTree::set_idle(int i, bool idle) {
-  const std::size_t s = slot(i);
-  leaves_[s].idle = idle;
-  change(s);
+  Item& item = items_[static_cast<std::size_t>(i)];
+  item.idle = idle;
+  change(item);
 }
 
-void BoxTree::change(std::size_t s) {
+void BoxTree::change(const Item& item) {
+  const auto s = static_cast<std::size_t>(item.slot);
   changes_ += !changed_.test(s);
   changed_.set(s);
+}
+
+// In the order of the leaves, not of the calls: large trees do not fit into the cache.
+void BoxTree::take_up() {
+  changed_.each([this](std::size_t s) {
+    const std::size_t soon = std::min(s + kAhead, leaves_.size() - 1);
+    __builtin_prefetch(&items_[static_cast<std::size_t>(leaves_[soon].item)]);
+    Leaf& leaf = leaves_[s];
+    const Item& item = items_[static_cast<std::size_t>(leaf.item)];
+    note_travel(s, item.box);
+    leaf.box = item.box;
+    leaf.idle = item.idle;
+    write(leaf);
+    loose_.set(static_cast<std::size_t>(leaf.node));
+  });
 }
 
 void BoxTree::note_travel(std::size_t s, const Aabb& to) {
@@ -102,17 +130,20 @@ void BoxTree::note_travel(std::size_t s, const Aabb& to) {
     travel_ += kMostTravel;
     return;
   }
-  const double moved = 0.5 * (to.low + to.high - from.low - from.high).cwiseAbs().maxCoeff();
-  const double sizes = moved * static_cast<double>(travel_scale_[s]);
-  travel_ += std::min(sizes, kMostTravel);
+  double moved = 0;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    moved = std::max(moved, std::abs(to.low[k] - from.low[k] + (to.high[k] - from.high[k])));
+  const double sizes = 0.5 * moved * static_cast<double>(travel_scale_[s]);
+  travel_ += sizes < kMostTravel ? sizes : kMostTravel;  // huge boxes may give no number
 }
 
 void BoxTree::write(const Leaf& leaf) {
   Node& node = nodes_[static_cast<std::size_t>(leaf.node)];
+  const auto lane = static_cast<std::size_t>(leaf.lane);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
-    node.low[k][leaf.lane] = static_cast<float>(leaf.box.low[axis] - origin_[axis]);
-    node.high[k][leaf.lane] = static_cast<float>(leaf.box.high[axis] - origin_[axis]);
+    node.low[k][lane] = single(leaf.box.low[axis] - origin_[axis]);
+    node.high[k][lane] = single(leaf.box.high[axis] - origin_[axis]);
   }
 }
 
@@ -140,7 +171,10 @@ void BoxTree::refit(std::size_t index) {
 }
 
 bool BoxTree::find_changed(std::vector<ColliderPair>& pairs) {
-  if (travel_ > kTravelPerBuild * static_cast<double>(leaves_.size())) build();
+  take_up();
+  const auto n = static_cast<double>(leaves_.size());
+  debt_ += travel_ / n * static_cast<double>(changes_);
+  if (debt_ > kDebtPerBuild * n) build();
   refit();
   const bool all = changes_ * kAllAtOnce > leaves_.size();
   if (all) {

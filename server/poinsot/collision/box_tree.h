@@ -20,13 +20,9 @@
 #include <vector>
 
 #include "poinsot/collision/collider.h"
+#include "poinsot/collision/pair_list.h"
 
 namespace poinsot {
-
-struct ColliderPair {
-  int a, b;  // indices of colliders, a < b
-  friend auto operator<=>(const ColliderPair&, const ColliderPair&) = default;
-};
 
 // Bits that are walked in order.
 class BitSet {
@@ -66,8 +62,8 @@ class BoxTree {
   // Finite or empty [m].
   void set(int i, const Aabb& box);
   void set_idle(int i, bool idle);
-  const Aabb& box(int i) const { return leaves_[slot(i)].box; }
-  bool is_idle(int i) const { return leaves_[slot(i)].idle; }
+  const Aabb& box(int i) const { return items_[static_cast<std::size_t>(i)].box; }
+  bool is_idle(int i) const { return items_[static_cast<std::size_t>(i)].idle; }
 
   // Appends the pairs of overlapping boxes of which at least one was set, or became idle or ceased
   // to be, since the last call: each once, a < b, in no order to rely on. If that was so many that
@@ -79,6 +75,12 @@ class BoxTree {
  private:
   static constexpr std::size_t kWidth = 4;
 
+  // What was set, until the next search.
+  struct Item {
+    Aabb box;
+    std::int32_t slot;  // of its leaf
+    bool idle = false;
+  };
   // Leaves are in the order of the tree: what is near in space is near in memory.
   struct Leaf {
     Aabb box;  // exact [m]
@@ -100,7 +102,7 @@ class BoxTree {
 
   // A box while building: x, y, z from the origin [m] and, as a fourth axis, how large it is
   // [octaves].
-  struct alignas(16) Item {
+  struct alignas(16) Part {
     std::array<float, 4> low, high;
     std::int32_t leaf;
   };
@@ -108,10 +110,8 @@ class BoxTree {
     std::size_t first, count;
   };
 
-  std::size_t slot(int i) const {
-    return static_cast<std::size_t>(slot_of_[static_cast<std::size_t>(i)]);
-  }
-  void change(std::size_t slot);
+  void change(const Item& item);
+  void take_up();
   void note_travel(std::size_t slot, const Aabb& to);
   void write(const Leaf& leaf);
   void refit();
@@ -125,23 +125,24 @@ class BoxTree {
   void gather();
   std::int32_t add_node(Range range, std::int32_t parent, std::size_t lane, std::size_t depth);
   std::size_t part(Range range);
-  std::size_t halve(std::span<Item> items, std::size_t axis);
+  std::size_t halve(std::span<Part> parts, std::size_t axis);
   void scale_travel();
 
+  std::vector<Item> items_;
   std::vector<Leaf> leaves_;
-  std::vector<std::int32_t> slot_of_;  // per item: its leaf
-  std::vector<float> travel_scale_;    // per leaf [1/m]: one over the size of its node when built
+  std::vector<float> travel_scale_;  // per leaf [1/m]: one over the size of its node when built
   std::vector<Node> nodes_;
   BitSet loose_;             // nodes whose own bounds may have changed
   BitSet changed_;           // leaves
   std::size_t changes_ = 0;  // leaves that have changed
   std::vector<Task> tasks_;
-  std::vector<Item> items_;       // while building
+  std::vector<Part> parts_;       // while building
   std::vector<Leaf> old_leaves_;  // while building
   BitSet was_changed_;            // while building
   std::size_t depth_ = 0;         // nodes from the root to the lowest
   Vec3 origin_ = Vec3::Zero();    // [m] of the nodes' coordinates
   double travel_ = 0;             // [-] sizes of nodes, summed over boxes, since the last build
+  double debt_ = 0;               // [-] what searches since then have cost more for it
   std::size_t builds_ = 0;
 };
 

@@ -67,13 +67,13 @@ struct Cut {
   std::size_t bin = 0;  // the first on the right
 };
 
-template <class Items>
-Cut best_cut(const Items& items, const Binning& binning) {
+template <class Parts>
+Cut best_cut(const Parts& parts, const Binning& binning) {
   std::array<Bounds4, kBins> bounds;
   std::array<float, kBins> count{};
-  for (const auto& item : items) {
-    const std::size_t bin = binning.of(item.low[binning.axis], item.high[binning.axis]);
-    bounds[bin].include(_mm_load_ps(item.low.data()), _mm_load_ps(item.high.data()));
+  for (const auto& part : parts) {
+    const std::size_t bin = binning.of(part.low[binning.axis], part.high[binning.axis]);
+    bounds[bin].include(_mm_load_ps(part.low.data()), _mm_load_ps(part.high.data()));
     ++count[bin];
   }
   std::array<float, kBins> left_cost;
@@ -117,16 +117,16 @@ void BoxTree::build() {
   changed_.resize(n);
   for (std::size_t s = 0; s < n; ++s) {
     Leaf& leaf = leaves_[s];
-    const auto item = static_cast<std::size_t>(leaf.item);
-    if (was_changed_.test(static_cast<std::size_t>(slot_of_[item]))) changed_.set(s);
-    slot_of_[item] = static_cast<std::int32_t>(s);
+    Item& item = items_[static_cast<std::size_t>(leaf.item)];
+    if (was_changed_.test(static_cast<std::size_t>(item.slot))) changed_.set(s);
+    item.slot = static_cast<std::int32_t>(s);
     write(leaf);
   }
   refit();
   scale_travel();
   // Two nodes against each other leave at most sixteen tasks behind at each level of both.
   tasks_.resize(32 * depth_ + 32);
-  travel_ = 0;
+  travel_ = debt_ = 0;
   ++builds_;
 }
 
@@ -136,25 +136,25 @@ void BoxTree::gather() {
   for (const Leaf& leaf : leaves_)
     if (leaf.box.low[0] <= leaf.box.high[0])
       origin_ += 0.5 * share * leaf.box.low + 0.5 * share * leaf.box.high;
-  items_.resize(leaves_.size());
+  parts_.resize(leaves_.size());
   for (std::size_t s = 0; s < leaves_.size(); ++s) {
-    Item& item = items_[s];
+    Part& part = parts_[s];
     const Aabb& box = leaves_[s].box;
-    item.leaf = static_cast<std::int32_t>(s);
+    part.leaf = static_cast<std::int32_t>(s);
     if (box.low[0] > box.high[0]) {
-      item.low = item.high = {0, 0, 0, kNoSize};
+      part.low = part.high = {0, 0, 0, kNoSize};
       continue;
     }
     float size = 0;
     for (int k = 0; k < 3; ++k) {
       const auto axis = static_cast<std::size_t>(k);
-      item.low[axis] =
+      part.low[axis] =
           static_cast<float>(std::clamp(box.low[k] - origin_[k], -kFarthest, kFarthest));
-      item.high[axis] =
+      part.high[axis] =
           static_cast<float>(std::clamp(box.high[k] - origin_[k], -kFarthest, kFarthest));
-      size = std::max(size, item.high[axis] - item.low[axis]);
+      size = std::max(size, part.high[axis] - part.low[axis]);
     }
-    item.low[3] = item.high[3] = octaves(size);
+    part.low[3] = part.high[3] = octaves(size);
   }
 }
 
@@ -189,7 +189,7 @@ std::int32_t BoxTree::add_node(Range range, std::int32_t parent, std::size_t par
     if (groups[lane].count == 1) {
       nodes_[index].child[lane] = ~static_cast<std::int32_t>(leaves_.size());
       Leaf& leaf = leaves_.emplace_back(
-          old_leaves_[static_cast<std::size_t>(items_[groups[lane].first].leaf)]);
+          old_leaves_[static_cast<std::size_t>(parts_[groups[lane].first].leaf)]);
       leaf.node = self;
       leaf.lane = static_cast<std::uint8_t>(lane);
     } else {
@@ -200,43 +200,43 @@ std::int32_t BoxTree::add_node(Range range, std::int32_t parent, std::size_t par
   return self;
 }
 
-// Parts the items of a range in two and returns how many are in the first part.
+// Parts the parts of a range in two and returns how many are in the first part.
 std::size_t BoxTree::part(Range range) {
-  const std::span<Item> items(items_.begin() + static_cast<std::ptrdiff_t>(range.first),
+  const std::span<Part> parts(parts_.begin() + static_cast<std::ptrdiff_t>(range.first),
                               range.count);
   Bounds4 centres;
-  for (const Item& item : items) {
-    const __m128 twice = _mm_add_ps(_mm_load_ps(item.low.data()), _mm_load_ps(item.high.data()));
+  for (const Part& part : parts) {
+    const __m128 twice = _mm_add_ps(_mm_load_ps(part.low.data()), _mm_load_ps(part.high.data()));
     centres.include(twice, twice);
   }
   const std::array<float, 4> low = stored(centres.low);
   const std::array<float, 4> extent = stored(_mm_sub_ps(centres.high, centres.low));
   const auto longest = static_cast<std::size_t>(
       std::max_element(extent.begin(), extent.begin() + 3) - extent.begin());
-  if (range.count <= kFew && extent[3] <= kOneSize) return halve(items, longest);
+  if (range.count <= kFew && extent[3] <= kOneSize) return halve(parts, longest);
 
   const auto binning = [&](std::size_t axis) {
     return Binning{axis, low[axis], static_cast<float>(kBins) / extent[axis]};
   };
   Cut cut;
-  if (extent[longest] > kOnePlace) cut = best_cut(items, binning(longest));
+  if (extent[longest] > kOnePlace) cut = best_cut(parts, binning(longest));
   if (extent[3] > kOneSize) {
-    const Cut by_size = best_cut(items, binning(3));
+    const Cut by_size = best_cut(parts, binning(3));
     if (by_size.cost < cut.cost) cut = by_size;
   }
   if (cut.bin == 0) return range.count / 2;
-  const auto middle = std::partition(items.begin(), items.end(), [&](const Item& item) {
-    return cut.binning.of(item.low[cut.binning.axis], item.high[cut.binning.axis]) < cut.bin;
+  const auto middle = std::partition(parts.begin(), parts.end(), [&](const Part& part) {
+    return cut.binning.of(part.low[cut.binning.axis], part.high[cut.binning.axis]) < cut.bin;
   });
-  return static_cast<std::size_t>(middle - items.begin());
+  return static_cast<std::size_t>(middle - parts.begin());
 }
 
 // In two halves of full nodes.
-std::size_t BoxTree::halve(std::span<Item> items, std::size_t axis) {
-  const std::size_t left = kWidth * ((items.size() + 2 * kWidth - 1) / (2 * kWidth));
-  const auto centre = [axis](const Item& item) { return item.low[axis] + item.high[axis]; };
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
-                   [&](const Item& a, const Item& b) { return centre(a) < centre(b); });
+std::size_t BoxTree::halve(std::span<Part> parts, std::size_t axis) {
+  const std::size_t left = kWidth * ((parts.size() + 2 * kWidth - 1) / (2 * kWidth));
+  const auto centre = [axis](const Part& part) { return part.low[axis] + part.high[axis]; };
+  std::nth_element(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(left), parts.end(),
+                   [&](const Part& a, const Part& b) { return centre(a) < centre(b); });
   return left;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "poinsot/collision/box_tree.h"
+#include "poinsot/collision/pair_list.h"
 
 namespace poinsot {
 
@@ -49,18 +50,15 @@ class BroadPhase {
   void touch(int i);
   void find_under_planes(bool all);
   void find_under(const Plane& plane, int i);
-  void sort_found();
-  void merge_found();
 
   std::vector<int> body_;  // per collider
   BoxTree tree_;           // of all colliders; half-spaces stay empty
   std::vector<Plane> planes_;
   std::vector<int> plane_of_;           // per collider: index in planes_; -1: it has a box
   std::vector<unsigned char> touched_;  // per collider: to be paired anew
-  std::vector<int> list_;               // of those touched
-  std::vector<ColliderPair> pairs_, found_, scratch_;
-  std::vector<std::uint32_t> row_;  // per collider: where its pairs begin
-  std::vector<Aabb> grown_;         // per collider, of pairs(tight, reach)
+  std::vector<int> which_;              // those touched
+  PairList list_;
+  std::vector<Aabb> grown_;  // per collider, of pairs(tight, reach)
 };
 
 }  // namespace poinsot

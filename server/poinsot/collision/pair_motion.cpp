@@ -119,6 +119,12 @@ double PairMotion::closing(double h) const {
          b_.r * b_.course->rotation().omega;
 }
 
+double PairMotion::closing_along(const Vec3& n, double h) const {
+  const double linear = std::abs(n.dot(a_.now.velocity.linear - b_.now.velocity.linear));
+  return linear + h * (std::abs(n.dot(acceleration_)) + slack_) +
+         a_.r * a_.course->rotation().turn_rate(n) + b_.r * b_.course->rotation().turn_rate(n);
+}
+
 double PairMotion::rounding() const {
   const double where = a_.now.pose.c.norm() + b_.now.pose.c.norm() + a_.ball + b_.ball;
   return 4 * kEpsilon *

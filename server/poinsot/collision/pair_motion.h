@@ -38,6 +38,8 @@ class PairMotion {
   // the pair come nearer between the time gone to and h later [m/s].
   double turning() const { return turning_; }
   double closing(double h) const;
+  // The same of how fast the gap along n closes or opens, also within h before.
+  double closing_along(const Vec3& n, double h) const;
 
   double size() const { return size_; }  // [m] the smaller
   // What gaps are known to [m], and their rates [m/s], now.
