@@ -11,8 +11,8 @@ namespace {
 
 Scene scene_of(const BodyDef& a, const BodyDef& b, const Vec3& gravity) {
   Scene result = scene({a, b});
-  result.bodies[0].name = "a";
-  result.bodies[1].name = "b";
+  result.bodies[0].name.assign(1, 'a');
+  result.bodies[1].name.assign(1, 'b');
   result.simulation.gravity = gravity;
   return result;
 }
@@ -65,6 +65,35 @@ BodyDef moving(const Shape& shape, const Vec3& at, const Vec3& v, const Vec3& om
   def.linear_velocity = v;
   def.angular_velocity = omega;
   return def;
+}
+
+FlyBy random_fly_by(int kind_a, int kind_b, double spin, Random& random) {
+  const Shape a = random_shape(kind_a, random), b = random_shape(kind_b, random);
+  const auto omega = [&] {
+    const double speed = random.log_uniform(0.1, spin);
+    return Vec3(speed * random.direction());
+  };
+  if (const auto* wall = std::get_if<HalfSpace>(&b)) {
+    FlyBy result;
+    const Vec3& n = wall->normal;
+    result.b.is_static = true;
+    result.b.shapes = {{b, {}}};
+    const double height = wall->offset + bounding_radius(a) * random.uniform(1.05, 2.5);
+    const Vec3 v = random.in_box(2) - random.uniform(0.5, 4) * n;
+    result.a = moving(a, height * n + random.in_box(0.1), v, omega(), random.rotation());
+    result.gravity = random.uniform(-9.81, 9.81) * n;
+    return result;
+  }
+  const double reach = bounding_radius(a) + bounding_radius(b);
+  const Vec3 ahead = random.direction();
+  const Vec3 aside = ahead.cross(random.direction()).normalized();
+  const Vec3 from = random.in_box(1), v = random.in_box(2);
+  const double distance = reach * random.uniform(1.1, 2), pass = reach * random.uniform(0, 1);
+  const double speed = random.log_uniform(0.5, 20);
+  return {moving(a, from, v, omega(), random.rotation()),
+          moving(b, from + distance * ahead + pass * aside, v - speed * ahead, omega(),
+                 random.rotation()),
+          random.below(3) == 0 ? Vec3(0, 0, -9.81) : Vec3(Vec3::Zero())};
 }
 
 Sampled dense_samples(const CoursedPair& pair, double dt) {

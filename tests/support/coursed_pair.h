@@ -40,6 +40,14 @@ class CoursedPair {
 BodyDef moving(const Shape& shape, const Vec3& at, const Vec3& v, const Vec3& omega,
                const Quat& q = Quat::Identity());
 
+// Two bodies for a second of flight: they pass each other at 0.5 … 20 m/s within reach or nearly
+// so, spinning at up to `spin` rad/s. A half-space is a wall, up which or down which body a falls.
+struct FlyBy {
+  BodyDef a, b;
+  Vec3 gravity;
+};
+FlyBy random_fly_by(int kind_a, int kind_b, double spin, Random& random);
+
 struct Sampled {
   std::optional<double> meets;  // [s] first root found
   double closest;               // [m] least gap found before it; refined

@@ -42,6 +42,7 @@ struct ToFcl {
     return std::make_shared<fcl::Convexd>(vertices, static_cast<int>(s.faces.size()), faces);
   }
   Geometry operator()(const HalfSpace&) const { return nullptr; }
+  Geometry operator()(const Mesh&) const { return nullptr; }
 };
 
 fcl::Transform3d to_fcl(const Pose& pose) {

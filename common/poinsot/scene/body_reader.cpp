@@ -172,7 +172,8 @@ class BodyReader {
     if (shapes_.empty() && sound_) {
       faults_.add(node_,
                   mass > 0 ? "a body without a shape needs the key 'inertia'"
-                           : "a body that is neither static nor kinematic needs a shape with a density, or mass and "
+                           : "a body that is neither static nor kinematic needs a shape with a "
+                             "density, or mass and "
                              "inertia",
                   path_ + ".mass");
       return {};
@@ -181,14 +182,19 @@ class BodyReader {
     for (const ShapeEntry& entry : shapes_) {
       any_density = any_density || entry.has_density;
       all_densities = all_densities && entry.has_density;
-      // A half-space has no mass; validate() refuses it on a body that moves.
-      if (!entry.sound || std::holds_alternative<HalfSpace>(entry.def.shape)) sound_ = false;
+      // Half-spaces and meshes have no mass; validate() refuses them on a body that has one.
+      if (!entry.sound || std::holds_alternative<HalfSpace>(entry.def.shape) ||
+          std::holds_alternative<Mesh>(entry.def.shape))
+        sound_ = false;
     }
     if (mass > 0 && any_density)
       refuse(node_, "a body must have either mass or shapes with a density");
     if (mass == 0 && density == 0 && !all_densities)
-      refuse(node_, any_density ? "a body that is neither static nor kinematic needs a density for each of its shapes"
-                                : "a body that is neither static nor kinematic needs density or mass");
+      refuse(
+          node_,
+          any_density
+              ? "a body that is neither static nor kinematic needs a density for each of its shapes"
+              : "a body that is neither static nor kinematic needs density or mass");
     if (!sound_) faults_.distrust(path_ + ".mass");
     if (faults_.distrusted(path_ + ".mass")) return {};
     std::vector<MassProperties> parts;

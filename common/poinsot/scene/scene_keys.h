@@ -37,11 +37,11 @@ inline constexpr Words kBodyLater = {"surface_velocity"};
 inline constexpr Words kDragKeys = {"linear", "quadratic", "angular"};
 inline constexpr Words kShapeKeys = {"sphere",   "box",         "capsule", "cylinder",
                                      "cone",     "ellipsoid",   "convex",  "half_space",
-                                     "position", "orientation", "density"};
-inline constexpr Words kShapeLater = {"mesh"};
+                                     "position", "orientation", "density", "mesh"};
 inline constexpr Words kRoundKeys = {"radius", "length"};
 inline constexpr Words kConvexKeys = {"points"};
 inline constexpr Words kConvexLater = {"file"};
+inline constexpr Words kMeshKeys = {"file"};
 inline constexpr Words kHalfSpaceKeys = {"normal", "offset"};
 inline constexpr Words kMaterialKeys = {"friction", "restitution"};
 inline constexpr Words kMaterialLater = {"static_friction"};
@@ -60,10 +60,11 @@ inline constexpr KeyTable kPresentationTable = {"presentation", scene_keys::kPre
 inline constexpr KeyTable kCollisionTable = {"collision", scene_keys::kCollisionKeys, {}};
 inline constexpr KeyTable kSimulationTable = {"simulation", scene_keys::kSimulationKeys, {}};
 inline constexpr KeyTable kBodyTable = {"bodies[]", scene_keys::kBodyKeys, scene_keys::kBodyLater};
-inline constexpr KeyTable kShapeTable = {"shape", scene_keys::kShapeKeys, scene_keys::kShapeLater};
+inline constexpr KeyTable kShapeTable = {"shape", scene_keys::kShapeKeys, {}};
 inline constexpr KeyTable kRoundTable = {"capsule, cylinder, cone", scene_keys::kRoundKeys, {}};
 inline constexpr KeyTable kConvexTable = {"convex", scene_keys::kConvexKeys,
                                           scene_keys::kConvexLater};
+inline constexpr KeyTable kMeshTable = {"mesh", scene_keys::kMeshKeys, {}};
 inline constexpr KeyTable kHalfSpaceTable = {"half_space", scene_keys::kHalfSpaceKeys, {}};
 inline constexpr KeyTable kMaterialTable = {"material", scene_keys::kMaterialKeys,
                                             scene_keys::kMaterialLater};

@@ -109,6 +109,19 @@ struct ShapeFault {
              digits(s.offset);
     return {};
   }
+  std::string operator()(const Mesh& s) const {
+    if (s.triangles.empty()) return "mesh must be made by make_mesh(): it has no triangles";
+    if (s.triangles.size() > kMaxTriangles || s.vertices.size() > kMaxMeshVertices)
+      return "mesh has more than " + std::to_string(kMaxTriangles) + " triangles or " +
+             std::to_string(kMaxMeshVertices) + " vertices";
+    if (!std::ranges::all_of(s.vertices, sane))
+      return "mesh vertices must be finite and at most " + digits(kMagnitude) + " m from 0";
+    const int count = static_cast<int>(s.vertices.size());
+    for (const auto& triangle : s.triangles)
+      for (const int i : triangle)
+        if (i < 0 || i >= count) return "mesh triangle names vertex " + std::to_string(i);
+    return {};
+  }
 };
 
 // Masses -----------------------------------------------------------------------------------------
@@ -260,6 +273,8 @@ class Validation {
     check_quaternion(body, path + ".orientation", def.pose.q);
     if (!body.is_static && std::holds_alternative<HalfSpace>(def.shape))
       add(body.where, path + ".shape", "only a static body may have a half_space");
+    if (!body.is_static && !body.is_kinematic && std::holds_alternative<Mesh>(def.shape))
+      add(body.where, path + ".shape", "only a static or kinematic body may have a mesh");
   }
 
   void check_vector(const BodyDef& body, const std::string& path, const Vec3& v,

@@ -1,19 +1,20 @@
-// The gap of two shapes along a fixed axis, bounded from below for times to come.
+// The gap of two shapes along an axis, bounded from below for times to come.
 //
-// For a unit n fixed in W, from b to a, the slab between the supports along n is never wider than
-// the distance of the shapes. With x the time from now,
+// For a unit n, from b to a, the slab between the supports along n is never wider than the distance
+// of the shapes; n may turn with a constant angular velocity Ω ⟂ n, or be fixed. With x the time
+// from now and d = c_A − c_B,
 //
-//   g(x) = n·(c_A − c_B)(x) − ρ_A − ρ_B − h_A(Rᵀ(x)(−n)) − h_B(Rᵀ(x) n)
-//        ≥ L(x) = z + v x + ½ c x² − h_A(−n + x n×ω…) − h_B(n + x …)
+//   g(x) = n·d − ρ_A − ρ_B − h_A(−n) − h_B(n)                     at x
+//        ≥ L(x) = z + v x + ½ c x² − h_A(−n + x m_A) − h_B(n + x m_B)
 //
-// where h are supports of the cores about the centres of mass, at the orientation of now, their
-// directions turn at the rate of now, and c = n·(a_A − a_B) less what is left out: the slack of
-// driven bodies and r (W ω + α) of each body that turns (motion_bound.h). h is convex, so L is
-// concave if c ≤ 0, and a positive c is left out: then L is above 0 all the way between two times
-// at which it is. Bodies that have no core about their centre of mass have no such term, and L is g
-// itself but for slack.
+// h: supports of the cores about the centres of mass, at the orientation of now. Their directions
+// turn, seen from the bodies, at m_A = (ω_A − Ω) × n and m_B = (Ω − ω_B) × n. c is what the motion
+// gives for sure, less what is left out: slack of driven bodies, r |m″| of each core
+// (motion_bound.h), and what Ω does to n·d. h is convex, so L is concave if c ≤ 0, and a positive c
+// is left out: then L is above 0 all the way between two times at which it is. Bodies that have
+// nothing about their centre of mass but a ball need no such term, and L is g itself but for slack.
 //
-// Source: conservative advancement, Mirtich 1996; with the second-order term, README.md.
+// Source: conservative advancement, Mirtich 1996; with second-order terms, README.md.
 
 #pragma once
 

@@ -9,8 +9,8 @@ namespace {
 
 // Edges more parallel than this span no axis; the faces cover that case.
 constexpr double kParallelEdges = 1e-6;
-// An edge axis this near a face normal keeps the face's manifold; cos(0.01 rad).
-constexpr double kNearFace = 0.99995;
+// An edge axis this near a face normal keeps the face's manifold; cos(0.02 rad).
+constexpr double kNearFace = 0.9998;
 
 struct Halves {
   Vec3 a, b;  // [m] half-lengths
@@ -75,6 +75,12 @@ Vec3 edge_middle(const Vec3& half, Eigen::Index axis, const Vec3& d) {
   return p;
 }
 
+// Of the twelve edges, the one along `axis` that lies most along d.
+std::uint32_t edge_number(Eigen::Index axis, const Vec3& d) {
+  const Eigen::Index u = (axis + 1) % 3, v = (axis + 2) % 3;
+  return static_cast<std::uint32_t>(axis) * 4 + (d[u] < 0 ? 0 : 1) + (d[v] < 0 ? 0 : 2);
+}
+
 // The nearest points of the two edges; false if they lie beyond an end.
 bool crossing_edges(const ConvexPair& pair, const Halves& half, const Axis& axis,
                     Witness& witness) {
@@ -94,9 +100,10 @@ using Corner = Candidate;
 using Corners =
     std::array<Corner, 12>;  // a quadrilateral cut by four sides has eight; and to spare
 
-// Keeps the part with sign·(u or v) ≤ limit.
+// Keeps the part with sign·(u or v) ≤ limit. `side`: the number of what cuts.
 template <double Corner::*kAlong>
-int cut(const Corners& from, int count, double sign, double limit, Corners& to) {
+int cut(const Corners& from, int count, double sign, double limit, std::uint32_t side,
+        Corners& to) {
   int kept = 0;
   for (int i = 0; i < count; ++i) {
     const Corner& p = from[static_cast<std::size_t>(i)];
@@ -106,7 +113,8 @@ int cut(const Corners& from, int count, double sign, double limit, Corners& to) 
     if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
       const double t = dp / (dp - dq);
       to[static_cast<std::size_t>(kept++)] = {p.u + t * (q.u - p.u), p.v + t * (q.v - p.v),
-                                              p.gap + t * (q.gap - p.gap)};
+                                              p.gap + t * (q.gap - p.gap),
+                                              edge_cut(p.feature, side, dq > 0)};
     }
   }
   return kept;
@@ -121,7 +129,7 @@ struct FacePair {
 
   // R, c: the incident box in the frame of the reference box. `side`: of the face that touches.
   FacePair(const Vec3& half_, const Vec3& other_half, const auto& R, const Vec3& c,
-           Eigen::Index axis_, double side_)
+           Eigen::Index axis_, double side_, bool incident_is_a)
       : axis(axis_), u((axis_ + 1) % 3), v((axis_ + 2) % 3), side(side_), half(half_) {
     Eigen::Index k = 0;
     R.row(axis).cwiseAbs().maxCoeff(&k);
@@ -129,20 +137,24 @@ struct FacePair {
     const double facing = side * R(axis, k) > 0 ? -1 : 1;
     const Vec3 middle = c + facing * other_half[k] * R.col(k);
     const Vec3 x = other_half[k1] * R.col(k1), y = other_half[k2] * R.col(k2);
-    incident[0] = seen(middle + x + y);
-    incident[1] = seen(middle - x + y);
-    incident[2] = seen(middle - x - y);
-    incident[3] = seen(middle + x - y);
+    const std::uint32_t low = facing > 0 ? 1u << k : 0u, bit1 = 1u << k1, bit2 = 1u << k2;
+    incident[0] = seen(middle + x + y, corner_of(incident_is_a, low + bit1 + bit2));
+    incident[1] = seen(middle - x + y, corner_of(incident_is_a, low + bit2));
+    incident[2] = seen(middle - x - y, corner_of(incident_is_a, low));
+    incident[3] = seen(middle + x - y, corner_of(incident_is_a, low + bit1));
   }
-  Corner seen(const Vec3& p) const { return {p[u], p[v], side * p[axis] - half[axis]}; }
+  Corner seen(const Vec3& p, std::uint32_t feature) const {
+    return {p[u], p[v], side * p[axis] - half[axis], feature};
+  }
 
   // Cuts the incident face to the outline of the reference face; how many corners are left.
   int clip(double slack) {
     Corners other;
-    int n = cut<&Corner::u>(incident, 4, 1, half[u] + slack, other);
-    n = cut<&Corner::u>(other, n, -1, half[u] + slack, incident);
-    n = cut<&Corner::v>(incident, n, 1, half[v] + slack, other);
-    return cut<&Corner::v>(other, n, -1, half[v] + slack, incident);
+    const std::uint32_t first = static_cast<std::uint32_t>(axis) * 8 + (side > 0 ? 4 : 0);
+    int n = cut<&Corner::u>(incident, 4, 1, half[u] + slack, first, other);
+    n = cut<&Corner::u>(other, n, -1, half[u] + slack, first + 1, incident);
+    n = cut<&Corner::v>(incident, n, 1, half[v] + slack, first + 2, other);
+    return cut<&Corner::v>(other, n, -1, half[v] + slack, first + 3, incident);
   }
   // Midway between the two surfaces, in the frame of the reference box.
   Vec3 middle(const Corner& corner) const {
@@ -159,9 +171,9 @@ bool clip_faces(const ConvexPair& pair, const Halves& half, const Axis& axis, do
                 Manifold& manifold) {
   const Vec3& n = axis.normal;
   const Mat3& R = pair.R;
-  FacePair faces = axis.of_a ? FacePair(half.a, half.b, R, pair.c, axis.i, -n[axis.i])
+  FacePair faces = axis.of_a ? FacePair(half.a, half.b, R, pair.c, axis.i, -n[axis.i], false)
                              : FacePair(half.b, half.a, R.transpose(), -(R.transpose() * pair.c),
-                                        axis.i, n.dot(R.col(axis.i)));
+                                        axis.i, n.dot(R.col(axis.i)), true);
   int count = 0;
   double least = std::numeric_limits<double>::infinity();
   const int clipped = faces.clip(pair.rounding());
@@ -179,7 +191,7 @@ bool clip_faces(const ConvexPair& pair, const Halves& half, const Axis& axis, do
   for (std::size_t k = 0; k < static_cast<std::size_t>(choice.count); ++k) {
     const Corner& corner = faces.incident[choice.index[k]];
     const Vec3 p = faces.middle(corner);
-    manifold.points[k] = {axis.of_a ? p : Vec3(pair.c + R * p), corner.gap};
+    manifold.points[k] = {axis.of_a ? p : Vec3(pair.c + R * p), corner.gap, corner.feature};
   }
   return true;
 }
@@ -209,7 +221,10 @@ bool box_box(const ConvexPair& pair, double margin, Manifold& manifold) {
     return true;
   }
   manifold.normal = axis.normal;
-  manifold.points[0] = {0.5 * (witness.on_a + witness.on_b), witness.gap};
+  const std::uint32_t edge_a = edge_number(axis.i, -axis.normal),
+                      edge_b = edge_number(axis.j, pair.R.transpose() * axis.normal);
+  manifold.points[0] = {0.5 * (witness.on_a + witness.on_b), witness.gap,
+                        edge_cut(corner_of(true, edge_a), edge_b, false)};
   manifold.count = 1;
   return true;
 }

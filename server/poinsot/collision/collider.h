@@ -2,12 +2,14 @@
 //
 // A collider's frame S is the shape's own. Rounded shapes are a core and a radius: a sphere is a
 // point, a capsule a segment, both swept by a ball. Queries run on cores, so rounding costs
-// nothing.
+// nothing. A mesh is a surface of triangles; each of them is a collider too, a flat convex core.
 
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "poinsot/math/pose.h"
@@ -15,15 +17,23 @@
 
 namespace poinsot {
 
+class MeshSurface;
+
 struct Collider {
   Collider(Eigen::Index body, const Shape& shape, const Pose& in_body);
+  // One triangle of a mesh; its shape is an empty mesh. Does not allocate.
+  Collider(const Collider& mesh, int triangle);
 
   Eigen::Index body;  // column
   Shape shape;
   Pose in_body;            // of S in the frame of the centre of mass
   double core_radius;      // [m] swept about the core; 0 for shapes with edges
   double bounding_radius;  // [m] about S's origin; infinite for a half-space
-  double size;             // [m] length that tolerances are relative to: the smallest extent
+  bool is_curved;          // the core is: it has a cylinder's, cone's or ellipsoid's surface
+  double size;             // [m] length that tolerances are relative to: the smallest extent, of a
+                           // mesh and its triangles its largest
+  std::shared_ptr<const MeshSurface> surface;  // of a mesh and its triangles
+  int triangle = -1;                           // of a mesh: which; −1: not one of them
 };
 
 // The point of the core farthest along d (any length), in S [m]. Not for half-spaces.
@@ -50,10 +60,13 @@ struct Feature {
   static constexpr int kMaxCorners = 16;
   std::array<Vec3, kMaxCorners> corners;  // [m]
   int count = 0;
+  std::array<std::uint16_t, kMaxCorners> id{};  // which corner of the shape, as long as it exists
   std::array<double, 2> round = {0, 0};  // [m] radius of the surface about an edge, at its ends
 
-  void add(const Vec3& corner) {
-    if (count < kMaxCorners) corners[static_cast<std::size_t>(count++)] = corner;
+  void add(const Vec3& corner, std::size_t corner_id) {
+    if (count == kMaxCorners) return;
+    id[static_cast<std::size_t>(count)] = static_cast<std::uint16_t>(corner_id);
+    corners[static_cast<std::size_t>(count++)] = corner;
   }
   const Vec3& operator[](int i) const { return corners[static_cast<std::size_t>(i)]; }
   double round_at(double t) const { return (1 - t) * round[0] + t * round[1]; }

@@ -28,7 +28,8 @@ CollisionState::CollisionState(const Scene& scene)
       courses(scene.bodies.size()),
       course_stamp(scene.bodies.size(), 0),
       bounds_until(scene.bodies.size(), 0),
-      asleep(scene.bodies.size(), 0) {
+      asleep(scene.bodies.size(), 0),
+      bound(colliders.size()) {
   for (const BodyDef& body : scene.bodies) materials.push_back(body.material);
   first_collider.assign(scene.bodies.size() + 1, 0);
   for (const Collider& collider : colliders) {

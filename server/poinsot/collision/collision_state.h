@@ -48,6 +48,8 @@ struct CollisionState {
   std::vector<std::uint32_t> course_stamp;  // that courses[i] is of; 0: none yet
   std::vector<double> bounds_until;         // [s] that its boxes hold; for ever if it is at rest
   std::vector<std::uint8_t> asleep;
+
+  std::vector<Aabb> bound;  // per collider: it stays inside until bounds_until, but for impacts
 };
 
 // The colliders of all bodies of a scene, in body order.

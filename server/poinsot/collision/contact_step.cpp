@@ -18,6 +18,8 @@ constexpr double kSamePoint = 0.25;
 // Points are moved along instead of found anew while the pair turned and shifted by less than this
 // of its size: their gaps are then wrong by no more than its square.
 constexpr double kSamePose = 1e-5;
+// Planes of contact hold while the bodies turn their surfaces by less than this of the size.
+constexpr double kTurned = 0.25;
 // A point is inside its cone by this much, relative: below it an equilibrium is not proven.
 constexpr double kInsideCone = 1e-3;
 
@@ -401,8 +403,19 @@ void ContactStep::resolve(CollisionState& state) {
   }
 }
 
-double ContactStep::sound_part() const {
+double ContactStep::sound_part(const CollisionState& state) const {
   double part = 1;
+  for (std::size_t r = 0; r < records_.size(); ++r) {
+    if (first_point_[r] == first_point_[r + 1]) continue;
+    const PairRecord& record = state.pairs.records()[static_cast<std::size_t>(records_[r])];
+    const double most = kTurned * record.size;
+    for (const int column : {record.a, record.b}) {
+      const auto body = static_cast<std::size_t>(local_of_[static_cast<std::size_t>(column)]);
+      const double turned =
+          h_ * state.arm[static_cast<std::size_t>(column)] * bodies_[body].omega.norm();
+      if (turned > most) part = std::min(part, most / turned);
+    }
+  }
   for (std::size_t k = 0; k < fastest_.size() && k < columns_.size(); ++k) {
     const double allowed = std::max(travel_[k], room_[k]);
     if (fastest_[k] > allowed) part = std::min(part, allowed / fastest_[k]);

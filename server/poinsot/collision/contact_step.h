@@ -40,9 +40,9 @@ class ContactStep {
   // Moves bodies, changes momenta and fills the contact wrenches of the simulation layer.
   Outcome solve(CollisionState& state, Books& books);
 
-  // Part of h that the bodies may move on before a pair could pass through another: 1 if nothing
-  // became faster than was foreseen.
-  double sound_part() const;
+  // Part of h that the bodies may move on before one could pass through another: 1 if nothing became
+  // faster than was foreseen or turns fast.
+  double sound_part(const CollisionState& state) const;
 
   // The bodies that contacts act on, systems as a whole, ascending.
   std::span<const Eigen::Index> movers() const { return movers_; }

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "poinsot/collision/polish.h"
+
 namespace poinsot {
 namespace {
 
@@ -243,7 +245,8 @@ struct Start {
 
 Penetration across_flat(const ConvexPair& pair, const GjkResult& ended, const Vec3& flat_normal) {
   const Vec3 normal = flat_normal.dot(pair.c) > 0 ? Vec3(-flat_normal) : flat_normal;
-  return {0, 0, normal, ended.on_a, ended.on_b};
+  const double depth = -difference_support(pair, -normal).w.dot(normal);
+  return {depth, std::min(depth, 0.0), normal, ended.on_a, ended.on_b};
 }
 
 Penetration along_support(const ConvexPair& pair, const Vec3& outward) {
@@ -251,52 +254,52 @@ Penetration along_support(const ConvexPair& pair, const Vec3& outward) {
   return {p.w.dot(outward), 0, -outward, p.on_a, p.on_b()};
 }
 
-// The deepest points are blended as the foot of the origin on the face is of its corners.
-void blend_foot(const Polytope& polytope, const Face& face, Penetration& result) {
-  std::array<DifferencePoint, 3> p;
-  for (std::size_t i = 0; i < 3; ++i) p[i] = polytope.point(face.corner[i]);
-  const Vec3 ab = p[1].w - p[0].w, ac = p[2].w - p[0].w;
+// The foot of the origin on a face, as a blend of its corners.
+Blend foot(const Polytope& polytope, const Face& face) {
+  Blend blend;
+  blend.size = 3;
+  for (std::size_t i = 0; i < 3; ++i) blend.points[i] = polytope.point(face.corner[i]);
+  const Vec3& a = blend.points[0].w;
+  const Vec3 ab = blend.points[1].w - a, ac = blend.points[2].w - a;
   const Vec3 n = ab.cross(ac);
-  const Vec3 foot = face.distance * face.normal - p[0].w;
+  const Vec3 foot = face.distance * face.normal - a;
   const double along_b = foot.cross(ac).dot(n) / n.squaredNorm();
   const double along_c = ab.cross(foot).dot(n) / n.squaredNorm();
-  const std::array<double, 3> weight = {1 - along_b - along_c, along_b, along_c};
-  result.on_a.setZero();
-  result.on_b.setZero();
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.on_a += weight[i] * p[i].on_a;
-    result.on_b += weight[i] * p[i].on_b();
-  }
+  blend.weights = {1 - along_b - along_c, along_b, along_c};
+  return blend;
 }
 
-// Where many directions are all but equal, as deep inside a cone on its axis, the polytope is used
-// up on the ring of them. The best it found is then improved on its own: moved apart along it, the
-// cores' nearest points give a better direction. Only the upper bound gains.
-void improve(const ConvexPair& pair, Penetration& best) {
-  for (int turn = 0; turn < 4; ++turn) {
-    ConvexPair apart = pair;
-    const Vec3 away = (best.depth + kEpaApart * pair.small) * best.normal;
-    apart.c -= away;
-    const GjkResult near = gjk(apart);
-    if (!near.separated) return;
-    const double depth = difference_support(pair, -near.normal).w.dot(-near.normal);
-    if (depth >= best.depth) return;
-    best = {depth, best.lower, near.normal, near.on_a, near.on_b + away};
-  }
+// The least depth near the best found, to rounding. The polytope bounds it, but knows its place
+// only to the size of a face; and where many directions are all but equal, as deep inside a cone on
+// its axis, it is used up on the ring of them. True if it settled.
+bool improve(const ConvexPair& pair, const Blend& blend, Penetration& best) {
+  const Polished p = polish(pair, best.normal, blend, pair.rounding());
+  if (-p.lower > best.depth + pair.rounding()) return false;
+  best.depth = -p.lower;
+  best.normal = p.normal;
+  if (!p.settled) return false;
+  best.on_a = p.on_a;
+  best.on_b = p.on_b;
+  return true;
 }
 
 }  // namespace
 
-Penetration penetration(const ConvexPair& pair, const GjkResult& ended) {
+Penetration penetration(const ConvexPair& pair, const GjkResult& ended, double accuracy) {
   Start start{ended.simplex, static_cast<std::size_t>(ended.size), Vec3::UnitZ()};
-  if (!start.fill(pair, kEpaFlat * pair.small)) return across_flat(pair, ended, start.flat_normal);
+  if (!start.fill(pair, pair.at_least_rounding(kEpaFlat * pair.small)))
+    return across_flat(pair, ended, start.flat_normal);
 
   Polytope polytope(pair.rounding());
   Penetration best = along_support(
       pair, pair.c.squaredNorm() > 0 ? Vec3(pair.c.normalized()) : Vec3(Vec3::UnitZ()));
+  bool is_polished = ended.near_stationary.settled;
+  if (const Polished& p = ended.near_stationary; p.settled && -p.lower < best.depth)
+    best = {-p.lower, 0, p.normal, p.on_a, p.on_b};
   if (!polytope.start(start.p)) return best;
-  const double gap = pair.at_least_rounding(kEpaGap * pair.small);
+  const double coarse = accuracy * pair.small, fine = pair.at_least_rounding(kEpaGap * pair.small);
   double lower = -std::numeric_limits<double>::infinity();
+  Blend blend;
   for (;;) {
     const int nearest = polytope.nearest();
     const Face& face = std::as_const(polytope).face(nearest);
@@ -305,15 +308,19 @@ Penetration penetration(const ConvexPair& pair, const GjkResult& ended) {
     const DifferencePoint p = difference_support(pair, outward);
     const double upper = p.w.dot(outward);
     if (upper < best.depth) {
-      best.depth = upper;
-      best.normal = -outward;
-      blend_foot(polytope, face, best);
+      blend = foot(polytope, face);
+      best = {upper, 0, -outward, blend.on_a(), blend.on_b()};
+      is_polished = false;
     }
-    if (best.depth - lower <= gap || !polytope.grow(nearest, p)) break;
+    if (best.depth - lower <= fine || !polytope.grow(nearest, p)) break;
+    // Good enough, once its own digits are right.
+    if (pair.is_curved() && best.depth - lower <= coarse) {
+      is_polished = is_polished || improve(pair, blend, best);
+      if (is_polished) break;
+    }
   }
+  if (pair.is_curved() && !is_polished && blend.size > 0) improve(pair, blend, best);
   best.lower = std::min(lower, best.depth);
-  if (best.depth - best.lower > gap) improve(pair, best);
-  best.lower = std::min(best.lower, best.depth);
   return best;
 }
 

@@ -15,9 +15,8 @@
 
 namespace poinsot {
 
-inline constexpr double kEpaGap = 1e-9;    // [-] upper − lower bound, of the smaller radius
-inline constexpr double kEpaFlat = 1e-9;   // [-] thinner differences, likewise, have no volume
-inline constexpr double kEpaApart = 0.01;  // [-] likewise: the gap at which a direction is improved
+inline constexpr double kEpaGap = 1e-9;   // [-] upper − lower bound, of the smaller radius
+inline constexpr double kEpaFlat = 1e-9;  // [-] thinner differences, likewise, have no volume
 inline constexpr int kEpaFaces = 512;
 
 struct Penetration {
@@ -27,7 +26,9 @@ struct Penetration {
   Vec3 on_a, on_b;   // [m] deepest points, in A's frame
 };
 
-// `ended` is the result of gjk() with separated == false.
-Penetration penetration(const ConvexPair& pair, const GjkResult& ended);
+// `ended` is the result of gjk() with separated == false. `accuracy`: upper − lower bound of the
+// smaller radius; when coarse, the depth returned is still a least one to rounding, but another one
+// that is shallower by up to `accuracy` may have been missed.
+Penetration penetration(const ConvexPair& pair, const GjkResult& ended, double accuracy = kEpaGap);
 
 }  // namespace poinsot

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "poinsot/collision/proximity.h"
 #include "poinsot/collision/reach.h"
 
 namespace poinsot {
@@ -18,6 +19,7 @@ constexpr double kRoom = 0.1;
 constexpr double kThrown = 2;
 // Restarts widen the boxes of strays; from this one on they hold everything.
 constexpr int kLastNarrow = 6;
+constexpr double kEverywhere = 1e9;  // [m]
 
 }  // namespace
 
@@ -28,7 +30,6 @@ FrameMotion::FrameMotion(const Scene& scene)
       islands_(scene.bodies.size()),
       sleep_(scene.bodies.size()),
       rules_(scene),
-      bound_(state_.colliders.size()),
       bounded_(scene.bodies.size(), 0),
       excited_(scene.bodies.size(), 0),
       thrown_(scene.bodies.size(), 0) {
@@ -50,8 +51,8 @@ void FrameMotion::place_resting(Eigen::Index i) {
       broad_phase_.set_plane(k, normal, plane->offset + normal.dot(placed.c));
       continue;
     }
-    bound_[static_cast<std::size_t>(k)] = bounds(collider, collider_pose(collider, pose));
-    broad_phase_.set(k, bound_[static_cast<std::size_t>(k)]);
+    state_.bound[static_cast<std::size_t>(k)] = bounds(collider, collider_pose(collider, pose));
+    broad_phase_.set(k, state_.bound[static_cast<std::size_t>(k)]);
   }
   state_.bounds_until[static_cast<std::size_t>(i)] = kForEver;
   state_.body_time[static_cast<std::size_t>(i)] = world.time;
@@ -122,10 +123,10 @@ void FrameMotion::set_bounds(double t_end) {
     if (!state_.is_awake(i) && !world.is_kinematic(i)) continue;
     if (state_.arm[k] == 0 && state_.colliders_of(i).empty()) continue;
     if (bounded_[k] == state_.stamp[k] && state_.bounds_until[k] >= t_end) continue;
-    bool inside = true;  // boxes that were made with room may do
+    bool inside = bounded_[k] != state_.stamp[k];  // boxes that were made with room may do
     for (const Collider& collider : state_.colliders_of(i)) {
       const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
-      inside = inside && bound_[c].contains(reach_box(state_, collider, world.time, t_end));
+      inside = inside && state_.bound[c].contains(reach_box(state_, collider, world.time, t_end));
     }
     if (inside) {
       bounded_[k] = state_.stamp[k];
@@ -143,8 +144,8 @@ void FrameMotion::set_bound(Eigen::Index i, double until, double more) {
   const auto k = static_cast<std::size_t>(i);
   for (const Collider& collider : state_.colliders_of(i)) {
     const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
-    bound_[c] = reach_box(state_, collider, state_.world().time, until).grown(more);
-    broad_phase_.set(static_cast<int>(c), bound_[c]);
+    state_.bound[c] = reach_box(state_, collider, state_.world().time, until).grown(more);
+    broad_phase_.set(static_cast<int>(c), state_.bound[c]);
     broad_phase_.set_moves(static_cast<int>(c), true);
   }
   bounded_[k] = state_.stamp[k];
@@ -234,7 +235,7 @@ void FrameMotion::excite(Eigen::Index i, double t_end, double speed) {
   double size = kForEver;
   for (const Collider& collider : state_.colliders_of(i)) {
     const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
-    inside = inside && bound_[c].contains(reach_box(state_, collider, now, t_end).grown(more));
+    inside = inside && state_.bound[c].contains(reach_box(state_, collider, now, t_end).grown(more));
     size = std::min(size, collider.size);
   }
   excited_[static_cast<std::size_t>(i)] = 1;
@@ -249,7 +250,7 @@ void FrameMotion::run_islands(double t_end, CollisionReport& report, CollisionTi
       Island& island = islands[k];
       if (island.done) return;
       motions_[static_cast<std::size_t>(thread)].advance(state_, island, t_end,
-                                                         islands_.island_of, bound_);
+                                                         islands_.island_of);
       island.done = island.strays.empty();
     });
     if (std::all_of(islands.begin(), islands.end(), [](const Island& i) { return i.done; })) break;
@@ -265,26 +266,58 @@ void FrameMotion::run_islands(double t_end, CollisionReport& report, CollisionTi
 
 // Bodies that left their boxes, or were met outside their islands: next time they are together.
 void FrameMotion::gather_strays(double t_end, int attempt) {
+  const double h = t_end - state_.world().time;
   strays_.clear();
-  for (Island& island : islands_.all())
-    if (!island.done) {
-      island.restore(state_);
-      strays_.insert(strays_.end(), island.strays.begin(), island.strays.end());
-      for (const Eigen::Index i : island.bodies) excited_[static_cast<std::size_t>(i)] = 1;
-    }
-  for (const Eigen::Index i : strays_) {
-    if (state_.asleep[static_cast<std::size_t>(i)] != 0) wake(i);
-    const double h = t_end - state_.world().time;
+  left_.clear();
+  for (Island& island : islands_.all()) {
+    if (island.done) continue;
+    for (const Eigen::Index i : island.bodies) excited_[static_cast<std::size_t>(i)] = 1;
+    const int own = islands_.island_of[static_cast<std::size_t>(island.bodies.front())];
+    for (const Eigen::Index i : island.strays)
+      (islands_.island_of[static_cast<std::size_t>(i)] == own ? left_ : strays_).push_back(i);
+    island.restore(state_);
+  }
+  const auto neighbours_speed = [&](Eigen::Index i) {
     double speed = fastest_point(state_, i, h);
     for (const int r : state_.pairs.of(i)) {
       const PairRecord& record = state_.pairs[r];
-      const Eigen::Index other = record.a == i ? record.b : record.a;
-      speed = std::max(speed, fastest_point(state_, other, h));
+      speed = std::max(speed, fastest_point(state_, record.a == i ? record.b : record.a, h));
     }
-    excite(i, t_end, attempt < kLastNarrow ? kThrown * speed * std::pow(4.0, attempt + 1) : 1e150);
+    return speed;
+  };
+  for (const Eigen::Index i : left_) {
+    const double wider = kThrown * std::pow(4.0, attempt + 1) * neighbours_speed(i);
+    excite(i, t_end, attempt < kLastNarrow ? wider : kEverywhere / h);
+  }
+  // Those that touch a stray now are likely to be the next.
+  for (std::size_t k = 0; k < strays_.size(); ++k) {
+    const Eigen::Index i = strays_[k];
+    if (state_.asleep[static_cast<std::size_t>(i)] != 0) wake(i);
+    excite(i, t_end, kThrown * neighbours_speed(i));
+    for (const int r : state_.pairs.of(i)) {
+      const PairRecord& record = state_.pairs[r];
+      const Eigen::Index other = record.a == i ? record.b : record.a;
+      const bool known = !state_.is_awake(other) || excited_[static_cast<std::size_t>(other)] != 0;
+      if (!known && touches_now(record)) strays_.push_back(other);
+    }
   }
   update_pairs();
   islands_.partition(state_, excited_, false);
+}
+
+bool FrameMotion::touches_now(const PairRecord& record) const {
+  const World& world = state_.world();
+  const auto pose = [&](int collider) {
+    const Collider& shape = state_.colliders[static_cast<std::size_t>(collider)];
+    return collider_pose(shape,
+                         {position(world.y, shape.body), orientation(world.y, shape.body)});
+  };
+  const Collider& a = state_.colliders[static_cast<std::size_t>(record.pair.a)];
+  const Collider& b = state_.colliders[static_cast<std::size_t>(record.pair.b)];
+  const Pose pose_a = pose(record.pair.a), pose_b = pose(record.pair.b);
+  const double touch = state_.touch(record);
+  if ((pose_a.c - pose_b.c).norm() > a.bounding_radius + b.bounding_radius + touch) return false;
+  return find_gap(a, pose_a, b, pose_b).value <= touch;
 }
 
 void FrameMotion::fly_the_rest(double t_end, Tally& tally) {

@@ -32,6 +32,7 @@ class FrameMotion {
   void excite(Eigen::Index i, double t_end, double speed);
   void run_islands(double t_end, CollisionReport& report, CollisionTimes& times);
   void gather_strays(double t_end, int attempt);
+  bool touches_now(const PairRecord& record) const;
   void fly_the_rest(double t_end, Tally& tally);
   void close(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
              const Tally& tally);
@@ -45,11 +46,10 @@ class FrameMotion {
   Islands islands_;
   Sleep sleep_;
   PairRules rules_;
-  std::vector<Aabb> bound_;             // per collider
   std::vector<std::uint32_t> bounded_;  // stamp of the course that the boxes are of, per body
   std::vector<std::uint8_t> excited_;   // per body
   std::vector<double> thrown_;          // [m/s] per body: the speed that an impact may have
-  std::vector<Eigen::Index> rest_, awake_, strays_;
+  std::vector<Eigen::Index> rest_, awake_, strays_, left_;
   std::vector<Tally> rest_tallies_;
   bool boxes_changed_ = true;
   bool touched_ = true;  // the world may have been changed from outside

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "poinsot/collision/polish.h"
+
 namespace poinsot {
 namespace {
 
@@ -49,15 +51,14 @@ struct Simplex {
     const bool plane_is_better = n.squaredNorm() > longest2 * v.squaredNorm();
     return plane_is_better ? Vec3((n.dot(w(0)) / n.squaredNorm()) * n) : v;
   }
-  Vec3 on_a() const {
-    Vec3 sum = weight[0] * p[0].on_a;
-    for (std::size_t i = 1; i < size; ++i) sum += weight[i] * p[i].on_a;
-    return sum;
-  }
-  Vec3 on_b() const {
-    Vec3 sum = weight[0] * p[0].on_b();
-    for (std::size_t i = 1; i < size; ++i) sum += weight[i] * p[i].on_b();
-    return sum;
+  Blend blend() const {
+    Blend result;
+    result.size = std::min<std::size_t>(size, 3);
+    for (std::size_t i = 0; i < result.size; ++i) {
+      result.points[i] = p[i];
+      result.weights[i] = weight[i];
+    }
+    return result;
   }
   void keep(const Nearest& nearest) {
     for (std::size_t k = 0; k < nearest.count; ++k) {
@@ -165,6 +166,26 @@ DifferencePoint difference_support(const ConvexPair& pair, const Vec3& d) {
   return {on_a - pair.support_b(-d), on_a};
 }
 
+namespace {
+
+// True if Newton's method proves the cores apart, with bounds that meet.
+bool improve(const ConvexPair& pair, const Vec3& normal, const Simplex& s, double gap,
+             GjkResult& result) {
+  result.near_stationary = polish(pair, normal, s.blend(), gap);
+  const Polished& p = result.near_stationary;
+  if (!p.settled || p.lower <= 0) return false;
+  result.separated = true;
+  result.distance = p.upper;
+  result.lower = p.lower;
+  result.normal = p.normal;
+  result.on_a = p.on_a;
+  result.on_b = p.on_b;
+  result.size = 0;
+  return true;
+}
+
+}  // namespace
+
 GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
   GjkResult result;
   Simplex s;
@@ -173,6 +194,7 @@ GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
   Vec3 v = first ? *first : Vec3(-pair.c);
   if (!(v.squaredNorm() > 0)) v = Vec3::UnitX();
   double length = v.norm();
+  double polish_at = pair.is_curved() ? kPolishFrom * pair.small : 0;
   bool touching = false;
 
   for (; result.iterations < kGjkIterations; ++result.iterations) {
@@ -183,6 +205,10 @@ GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
     }
     if (s.size > 0 && (length - result.lower <= gap || result.lower > enough || s.holds(next.w)))
       break;
+    if (s.size > 0 && length - result.lower <= polish_at) {
+      if (improve(pair, v / length, s, gap, result)) return result;
+      polish_at = result.near_stationary.settled ? 0 : 0.1 * (length - result.lower);
+    }
     const Simplex before = s;
     s.p[s.size++] = next;
     const bool inside = reduce(s, pair.rounding());
@@ -203,6 +229,9 @@ GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
     touching = inside || length <= touch;
     if (touching) break;
   }
+  if (!touching && length - result.lower > gap && result.lower <= enough && length > 0 &&
+      improve(pair, v / length, s, gap, result))
+    return result;
   // Not proven apart, or so close that needles of simplices cannot measure it: the penetration
   // search, whose depth has a sign, knows better.
   const double unsure = length - result.lower;
@@ -212,8 +241,9 @@ GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
   result.simplex = s.p;
   result.size = static_cast<int>(s.size);
   if (s.size < 4) {
-    result.on_a = s.on_a();
-    result.on_b = s.on_b();
+    const Blend blend = s.blend();
+    result.on_a = blend.on_a();
+    result.on_b = blend.on_b();
   }
   result.separated = !touching;
   result.distance = length;

@@ -22,6 +22,8 @@ inline constexpr double kGjkGap = 1e-12;    // [-] upper − lower bound, of the
 inline constexpr double kGjkTouch = 1e-10;  // [-] closer than this, of the smaller radius: touching
 inline constexpr double kGjkNear = 1e-5;    // [-] below this, likewise, an unsure distance, whose
 inline constexpr double kGjkSure = 1e-9;    // [-] bounds are farther apart than this, is none
+inline constexpr double kPolishFrom =
+    0.1;  // [-] upper − lower bound at which Newton's method starts
 inline constexpr double kRounding = 4e-15;  // [-] of the scale: what positions are known to
 inline constexpr int kGjkIterations = 128;
 
@@ -45,6 +47,8 @@ struct ConvexPair {
   double rounding() const { return kRounding * scale; }  // [m]
   double at_least_rounding(double length) const { return std::max(length, rounding()); }
 
+  bool is_curved() const { return a.is_curved || b.is_curved; }
+
   Vec3 support_a(const Vec3& d) const { return support(a, d); }
   Vec3 support_b(const Vec3& d) const { return c + R * support(b, R.transpose() * d); }
 };
@@ -58,6 +62,33 @@ struct DifferencePoint {
 };
 DifferencePoint difference_support(const ConvexPair& pair, const Vec3& d);
 
+// Up to three points of A − B and the weights of their blend.
+struct Blend {
+  std::array<DifferencePoint, 3> points;
+  std::array<double, 3> weights;
+  std::size_t size = 0;
+
+  Vec3 on_a() const {
+    Vec3 sum = weights[0] * points[0].on_a;
+    for (std::size_t i = 1; i < size; ++i) sum += weights[i] * points[i].on_a;
+    return sum;
+  }
+  Vec3 on_b() const {
+    Vec3 sum = weights[0] * points[0].on_b();
+    for (std::size_t i = 1; i < size; ++i) sum += weights[i] * points[i].on_b();
+    return sum;
+  }
+};
+
+// Of the cores, in A's frame. Both bounds hold whether or not the method settled.
+struct Polished {
+  bool settled = false;  // stationary: bounds meet when apart, a least depth nearby when not
+  double upper = 0;      // [m] distance of the points; of the distance only when apart
+  double lower = 0;      // [m] separation along the normal; negative: a depth that parts the cores
+  Vec3 normal;           // unit, from B to A
+  Vec3 on_a, on_b;       // [m] points of the cores
+};
+
 struct GjkResult {
   bool separated =
       false;            // proven: the cores do not touch; distances and normal are valid only then
@@ -68,6 +99,7 @@ struct GjkResult {
   std::array<DifferencePoint, 4> simplex;  // where it ended: the start of the penetration search
   int size = 0;
   int iterations = 0;
+  Polished near_stationary;  // where the last digits were sought, if they were
 };
 
 // Stops early, with coarse bounds, once the cores are known to be farther apart than `enough` [m].

@@ -48,20 +48,20 @@ int ImpactResponse::local(CollisionState& state, Eigen::Index column, double t,
 
 bool ImpactResponse::touches(CollisionState& state, const PairRecord& record, double t,
                              SimulationWorker& worker) {
-  const auto a = static_cast<std::size_t>(local(state, record.a, t, worker));
-  const auto b = static_cast<std::size_t>(local(state, record.b, t, worker));
   const Collider& shape_a = state.colliders[static_cast<std::size_t>(record.pair.a)];
   const Collider& shape_b = state.colliders[static_cast<std::size_t>(record.pair.b)];
-  const Pose pose_a = collider_pose(shape_a, poses_[a].pose);
-  const Pose pose_b = collider_pose(shape_b, poses_[b].pose);
+  const auto pose = [&](const Collider& shape) {
+    return collider_pose(shape, state.moving_pose(shape.body, t, false, worker).pose);
+  };
+  const Pose pose_a = pose(shape_a), pose_b = pose(shape_b);
   const double touch = kTogether * state.touch(record);
   if ((pose_a.c - pose_b.c).norm() > shape_a.bounding_radius + shape_b.bounding_radius + touch)
     return false;
   return find_gap(shape_a, pose_a, shape_b, pose_b).value <= touch;
 }
 
-void ImpactResponse::add_points(CollisionState& state, int index, double t, const Vec3* normal,
-                                const Vec3* point, SimulationWorker& worker) {
+void ImpactResponse::add_points(CollisionState& state, int index, double t,
+                                SimulationWorker& worker) {
   const PairRecord& record = state.pairs[index];
   const int a = local(state, record.a, t, worker), b = local(state, record.b, t, worker);
   const Collider& shape_a = state.colliders[static_cast<std::size_t>(record.pair.a)];
@@ -81,32 +81,37 @@ void ImpactResponse::add_points(CollisionState& state, int index, double t, cons
       p.point = manifold.points[static_cast<std::size_t>(k)].point;
       points_.push_back(p);
     }
-  if (points_.size() == first && normal != nullptr) {  // the search knows where it met
-    p.normal = *normal;
-    p.point = *point;
+  if (points_.size() == first && ranges_.empty()) {  // the search knows where they met
+    p.normal = record.normal;
+    p.point = record.point;
     points_.push_back(p);
   }
   if (points_.size() > first) ranges_.push_back({index, first, points_.size()});
 }
 
 // All that touches, from moving body to moving body.
-void ImpactResponse::gather_cluster(CollisionState& state, int record, double t,
-                                    const Vec3& normal, const Vec3& point,
+void ImpactResponse::gather_cluster(CollisionState& state, Island& island,
+                                    std::span<const int> island_of, int record, double t,
                                     SimulationWorker& worker) {
   columns_.clear();
   poses_.clear();
   bodies_.clear();
   points_.clear();
   ranges_.clear();
-  add_points(state, record, t, &normal, &point, worker);
+  add_points(state, record, t, worker);
+  const auto first = static_cast<std::size_t>(island.bodies.front());
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index body = columns_[k];
-    if (!state.is_awake(body)) continue;
+    if (!state.world().moves(body)) continue;
+    if (island_of[static_cast<std::size_t>(body)] != island_of[first]) {
+      island.strays.push_back(body);
+      continue;
+    }
     for (const int r : state.pairs.of(body)) {
       const bool known = std::any_of(ranges_.begin(), ranges_.end(),
                                      [&](const Range& range) { return range.record == r; });
       if (known || !touches(state, state.pairs[r], t, worker)) continue;
-      add_points(state, r, t, nullptr, nullptr, worker);
+      add_points(state, r, t, worker);
     }
   }
 }
@@ -126,9 +131,12 @@ double ImpactResponse::restitution(CollisionState& state, const PairRecord& reco
   return 2 * e * speed < pressing * kRestFlight * state.def.contact_step ? 0 : e;
 }
 
-void ImpactResponse::resolve(CollisionState& state, Island& island, int record, double t,
-                             const Vec3& normal, const Vec3& point, SimulationWorker& worker) {
-  gather_cluster(state, record, t, normal, point, worker);
+void ImpactResponse::resolve(CollisionState& state, Island& island,
+                             std::span<const int> island_of, int record, double t,
+                             SimulationWorker& worker) {
+  changed_.clear();
+  gather_cluster(state, island, island_of, record, t, worker);
+  if (!island.strays.empty()) return;
   for (const Range& range : ranges_)
     for (std::size_t k = range.first; k < range.end; ++k)
       points_[k].restitution = restitution(state, state.pairs[range.record], points_[k]);
@@ -137,7 +145,6 @@ void ImpactResponse::resolve(CollisionState& state, Island& island, int record, 
   island.result.impact_loss += outcome.energy_lost;
 
   World& world = state.simulation.world();
-  changed_.clear();
   for (const ImpactPoint& p : points_) {
     if (p.impulse.isZero(0)) continue;
     for (const int body : {p.a, p.b}) {

@@ -15,21 +15,21 @@ namespace poinsot {
 class ImpactResponse {
  public:
   // The pair of `record` meets at t; `normal` and `point` are where. Brings the bodies that take
-  // part to t, changes their momenta and courses, and adds to the result. `in_contact`: courses are
-  // those of a sub-step with contact wrenches, and bodies on them are at t already.
-  void resolve(CollisionState& state, Island& island, int record, double t, const Vec3& normal,
-               const Vec3& point, SimulationWorker& worker);
+  // part to t, changes their momenta and courses, and adds to the result. If bodies outside the
+  // island take part, that sleep or are in none (`island_of`), nothing is done but that they are
+  // added to the island's strays.
+  void resolve(CollisionState& state, Island& island, std::span<const int> island_of, int record,
+               double t, SimulationWorker& worker);
 
   // Bodies whose course changed in the last call.
   std::span<const Eigen::Index> changed() const { return changed_; }
 
  private:
-  void gather_cluster(CollisionState& state, int record, double t, const Vec3& normal,
-                      const Vec3& point, SimulationWorker& worker);
+  void gather_cluster(CollisionState& state, Island& island, std::span<const int> island_of,
+                      int record, double t, SimulationWorker& worker);
   bool touches(CollisionState& state, const PairRecord& record, double t,
                SimulationWorker& worker);
-  void add_points(CollisionState& state, int record, double t, const Vec3* normal,
-                  const Vec3* point, SimulationWorker& worker);
+  void add_points(CollisionState& state, int record, double t, SimulationWorker& worker);
   int local(CollisionState& state, Eigen::Index column, double t, SimulationWorker& worker);
   double restitution(CollisionState& state, const PairRecord& record, const ImpactPoint& point) const;
   void tell(CollisionState& state, Island& island, double t);

@@ -12,13 +12,15 @@ namespace {
 constexpr double kTurn = 0.25;   // [rad] between two poses
 constexpr double kTravel = 0.5;  // [-] of the smaller shape
 
-// [s] from the time gone to; at most `most`.
-double stretch(const PairMotion& motion, double most) {
+// [s] from the time gone to; at most `most`, and no less than what `gap` [m] allows.
+double stretch(const PairMotion& motion, double gap, double most) {
+  const double free = gap / motion.closing(most);
+  if (free >= most) return most;
   const double travel = kTravel * motion.size();
   if (most * motion.turning() > kTurn) most = kTurn / motion.turning();
   if (most * motion.closing(0) > travel) most = travel / motion.closing(0);
   if (most * motion.closing(most) > travel) most = travel / motion.closing(most);
-  return most;
+  return std::max(most, free);
 }
 
 }  // namespace
@@ -31,7 +33,7 @@ SearchResult search_backtracking(const CoursePair& pair, const SearchSpan& span,
   auto result = start_search(motion, axis, span, memory);
   while (!result && motion.time() < span.to && work.poses < most_poses) {
     const double apart = motion.time();
-    motion.go_to(std::min(span.to, motion.next_time(stretch(motion, span.to - apart))));
+    motion.go_to(std::min(span.to, motion.next_time(stretch(motion, axis.gap, span.to - apart))));
     axis.n = first_axis(motion, axis.n);
     axis.gap = motion.gap_along(axis.n);
     if (axis.gap <= 0) axis = nearest_axis(motion, axis.n);

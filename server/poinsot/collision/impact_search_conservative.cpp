@@ -9,17 +9,31 @@
 
 #include <algorithm>
 
+#include "poinsot/collision/axis_turn.h"
 #include "poinsot/collision/touching_pair.h"
 
 namespace poinsot {
 namespace {
 
+constexpr double kNear = 0.5;    // [-] gaps below this, of the smaller shape, are closed turning
 constexpr double kSpent = 0.25;  // [-] of the gap an axis began with: a new one is asked for
 
-// [s] from the time gone to in which the gap provably stays open; at most `most`.
-double clear_for(const PairMotion& motion, const Vec3& n, double most) {
+// A time in which the gap provably stays open, and how the axis turns meanwhile.
+struct Clear {
+  double x;  // [s]
+  Vec3 turn;
+};
+
+Clear clear_for(const PairMotion& motion, const NearestAxis& axis, bool is_near, double most) {
   const double balls = motion.balls_apart_until(most);
-  return balls >= most ? balls : std::max(balls, motion.bound_along(n).clear_until(most));
+  if (balls >= most) return {most, Vec3::Zero()};
+  Clear best{std::max(balls, motion.bound_along(axis.n).clear_until(most)), Vec3::Zero()};
+  if (!is_near || best.x >= most) return best;
+  const Vec3 turn = axis_turn(motion, axis.n);
+  if (turn == Vec3::Zero()) return best;
+  const double proven = turning_for(motion, turn, most);
+  const double x = motion.bound_turning(axis.n, turn, proven).clear_until(proven);
+  return x > best.x ? Clear{x, turn} : best;
 }
 
 }  // namespace
@@ -46,12 +60,13 @@ SearchResult search_conservative(const CoursePair& pair, const SearchSpan& span,
       continue;
     }
     const double left = span.to - motion.time();
-    const double x = clear_for(motion, axis.n, left);
-    if (x >= left) {
+    const bool is_near = axis.gap == began && axis.gap <= kNear * motion.size();
+    const Clear clear = clear_for(motion, axis, is_near, left);
+    if (clear.x >= left) {
       result = no_meeting(span.to);
     } else {
-      motion.go_to(std::min(span.to, motion.next_time(x)));
-      axis.n = first_axis(motion, axis.n);
+      motion.go_to(std::min(span.to, motion.next_time(clear.x)));
+      axis.n = first_axis(motion, turned_axis(axis.n, clear.turn, clear.x));
       axis.gap = motion.gap_along(axis.n);
     }
   }

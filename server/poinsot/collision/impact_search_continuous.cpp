@@ -14,17 +14,18 @@ constexpr double kShort = 1e-3;  // [-] travel in a stretch whose end is tested,
 
 // Whether the shapes stay apart within `half` [s] of the time gone to.
 bool swept_apart(const PairMotion& motion, NearestAxis& axis, double half) {
-  const double travel = half * motion.closing(half);
+  const auto apart = [&] { return axis.gap > half * motion.closing_along(axis.n, half); };
   axis.n = first_axis(motion, axis.n);
   axis.gap = motion.gap_along(axis.n);
-  if (axis.gap > travel) return true;
+  if (apart()) return true;
   if (motion.has_plane()) return false;
+  const double travel = half * motion.closing(half);
   if (!bounds(motion.shape_a(), motion.pose_a())
            .grown(travel)
            .overlaps(bounds(motion.shape_b(), motion.pose_b())))
     return true;
   axis = nearest_axis(motion, axis.n);
-  return axis.gap > travel;
+  return apart();
 }
 
 }  // namespace

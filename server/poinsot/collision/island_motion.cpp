@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "poinsot/base/stopwatch.h"
+#include "poinsot/collision/mesh_pairs.h"
 #include "poinsot/collision/reach.h"
 
 namespace poinsot {
@@ -18,7 +19,7 @@ constexpr double kPointsPerImpact = 16;
 // the island's clock.
 constexpr double kRestingSteps = 2;
 // A sub-step is cut to no less than this part of itself.
-constexpr double kLeastPart = 1.0 / 64;
+constexpr double kLeastPart = 1.0 / 256;
 
 bool is_known(const CollisionState& state, const PairRecord& record, double to) {
   return record.stamp_a == state.stamp[static_cast<std::size_t>(record.a)] &&
@@ -50,8 +51,12 @@ void IslandMotion::search(CollisionState& state, PairRecord& record, double t, d
                         state.course(record.a, horizon, in_contact, worker_),
                         state.colliders[static_cast<std::size_t>(record.pair.b)],
                         state.course(record.b, horizon, in_contact, worker_)};
-  const SearchResult found = search_by(state.def.impact_search, pair,
-                                       {from, horizon, state.touch(record)}, record.memory, work);
+  const SearchSpan span{from, horizon, state.touch(record)};
+  const bool mesh = std::holds_alternative<Mesh>(pair.a.shape) ||
+                    std::holds_alternative<Mesh>(pair.b.shape);
+  const SearchResult found =
+      mesh ? search_mesh(state, pair, span, work)
+           : search_by(state.def.impact_search, pair, span, record.memory, work);
   record.stamp_a = state.stamp[a];
   record.stamp_b = state.stamp[b];
   record.safe_until = found.time;
@@ -60,24 +65,56 @@ void IslandMotion::search(CollisionState& state, PairRecord& record, double t, d
   record.point = found.point;
 }
 
+// The first of all the triangles that the other shape may reach.
+SearchResult IslandMotion::search_mesh(CollisionState& state, const CoursePair& pair,
+                                       const SearchSpan& span, SearchWork& work) {
+  const bool mesh_is_a = std::holds_alternative<Mesh>(pair.a.shape);
+  const Collider& mesh = mesh_is_a ? pair.a : pair.b;
+  const Collider& other = mesh_is_a ? pair.b : pair.a;
+  const Course& course = mesh_is_a ? pair.course_a : pair.course_b;
+  const MovingPose start = course.moving_at(span.from);
+  const double carried =
+      (span.to - span.from) *
+      (start.velocity.linear.norm() +
+       state.arm[static_cast<std::size_t>(mesh.body)] * start.velocity.angular.norm());
+  triangles_.clear();
+  triangles_near(mesh, collider_pose(mesh, start.pose),
+                 state.bound[static_cast<std::size_t>(&other - state.colliders.data())].grown(
+                     (course.moves() ? carried : 0) + span.touch),
+                 triangles_);
+  SearchResult first{Meeting::none, span.to, Vec3::Zero(), Vec3::Zero()};
+  for (const int k : triangles_) {
+    const Collider triangle = triangle_collider(mesh, k);
+    const CoursePair one{mesh_is_a ? triangle : pair.a, pair.course_a,
+                         mesh_is_a ? pair.b : triangle, pair.course_b};
+    SearchMemory memory;
+    const SearchResult found = search_by(state.def.impact_search, one,
+                                         {span.from, first.time, span.touch}, memory, work);
+    if (found.meeting == Meeting::none) continue;
+    if (first.meeting == Meeting::none || found.time < first.time) first = found;
+  }
+  return first;
+}
+
 void IslandMotion::look_ahead(CollisionState& state, PairRecord& record, double t, double to,
                               double lasting, SearchWork& work) {
   if (!is_known(state, record, to)) search(state, record, t, to, lasting, false, work);
 }
 
 void IslandMotion::advance(CollisionState& state, Island& island, double t_end,
-                           std::span<const int> island_of, std::span<const Aabb> bound) {
+                           std::span<const int> island_of) {
   island.result.clear();
   island.strays.clear();
   double t = state.world().time;
   const double usual = kUsualSteps * state.def.contact_step;
+  const double impacts = state.def.max_impacts * std::max(1.0, (t_end - t) / usual);
   Frame frame{state,
               island,
               t_end,
               island_of,
-              bound,
               island_of[static_cast<std::size_t>(island.bodies.front())],
-              state.def.max_impacts * std::max(1.0, (t_end - t) / usual),
+              impacts,
+              impacts * static_cast<double>(island.bodies.size()),
               state.def.impact_search == ImpactSearchKind::none};
   while (t < t_end && island.strays.empty()) {
     if (frame.crowded) {
@@ -97,9 +134,9 @@ void IslandMotion::bring_all(Frame& frame, double t) {
 }
 
 // Whether one more impact is located; if not, the rest of the frame is stepped.
-bool IslandMotion::afford(Frame& frame, double cost) {
-  frame.budget -= cost;
-  if (frame.budget >= 0) return true;
+bool IslandMotion::afford(Frame& frame, double& budget, double cost) {
+  budget -= cost;
+  if (budget >= 0) return true;
   frame.crowded = frame.island.result.crowded = true;
   return false;
 }
@@ -140,16 +177,16 @@ double IslandMotion::fly(Frame& frame, double t) {
     bring_all(frame, frame.t_end);
     return frame.t_end;
   }
-  if (!afford(frame, 1)) return t;
+  if (!afford(frame, frame.flights, 1)) return t;
   meet(frame, first);
   return first.time;
 }
 
 void IslandMotion::meet(Frame& frame, const Meet& at) {
   CollisionState& state = frame.state;
-  PairRecord& record = state.pairs[at.record];
-  response_.resolve(state, frame.island, at.record, at.time, record.normal, record.point, worker_);
-  if (response_.changed().empty()) record.standing = true;  // it only seemed to approach
+  response_.resolve(state, frame.island, frame.island_of, at.record, at.time, worker_);
+  if (!frame.island.strays.empty()) return;
+  if (response_.changed().empty()) state.pairs[at.record].standing = true;  // it only seemed to
   for (const Eigen::Index i : response_.changed()) watch(frame, i, at.time);
 }
 
@@ -164,7 +201,7 @@ void IslandMotion::watch(Frame& frame, Eigen::Index i, double t) {
   }
   for (const Collider& collider : state.colliders_of(i)) {
     const auto k = static_cast<std::size_t>(&collider - state.colliders.data());
-    if (frame.bound[k].contains(reach_box(state, collider, t, frame.t_end))) continue;
+    if (state.bound[k].contains(reach_box(state, collider, t, frame.t_end))) continue;
     frame.island.strays.push_back(i);
     return;
   }
@@ -247,7 +284,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   }
   for (const Eigen::Index i : step_.movers()) watch(frame, i, first.time);
   if (!frame.island.strays.empty() || first.record < 0) return first.time;
-  if (afford(frame, 1 + static_cast<double>(step_.points()) / kPointsPerImpact)) meet(frame, first);
+  if (afford(frame, frame.budget, 1 + static_cast<double>(step_.points()) / kPointsPerImpact)) meet(frame, first);
   return first.time;
 }
 
@@ -284,7 +321,7 @@ double IslandMotion::step_foreseeing(Frame& frame, double t) {
     }
     if (!frame.island.strays.empty()) return t;
     const ContactStep::Outcome outcome = step_.solve(state, books);
-    const double part = std::max(kLeastPart, step_.sound_part());
+    const double part = std::max(kLeastPart, step_.sound_part(state));
     to = part < 1 ? t + part * h : (steps == 1 ? frame.t_end : t + h);
     note(frame, outcome, books);
   }

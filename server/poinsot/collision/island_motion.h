@@ -19,10 +19,10 @@ class IslandMotion {
   explicit IslandMotion(const CollisionState& state)
       : worker_(state.world()), step_(state.def) {}
 
-  // From the world's time to t_end, or until a body strays. `island_of` per body, of this frame;
-  // `bound` per collider: the boxes that no body may leave.
-  void advance(CollisionState& state, Island& island, double t_end, std::span<const int> island_of,
-               std::span<const Aabb> bound);
+  // From the world's time to t_end, or until a body strays. `island_of` per body, of this
+  // frame.
+  void advance(CollisionState& state, Island& island, double t_end,
+               std::span<const int> island_of);
 
   // Brings what is known of a pair up to `to`, from t on; `lasting`: how long its courses hold.
   void search(CollisionState& state, PairRecord& record, double t, double to, double lasting,
@@ -46,9 +46,9 @@ class IslandMotion {
     Island& island;
     double t_end;
     std::span<const int> island_of;
-    std::span<const Aabb> bound;
     int id;
-    double budget;  // impacts left to locate
+    double budget;   // impacts left to locate while contacts last …
+    double flights;  // … and while none does: then only the bodies that meet have to stop
     bool crowded;
   };
 
@@ -57,7 +57,7 @@ class IslandMotion {
   double step_foreseeing(Frame& frame, double t);
   Meet first_meeting(Frame& frame, double t, double to, bool in_contact);
   bool is_slow(Frame& frame, const PairRecord& record, double t, double h);
-  bool afford(Frame& frame, double cost);
+  bool afford(Frame& frame, double& budget, double cost);
   void meet(Frame& frame, const Meet& at);
   void advance_movers(Frame& frame, double t, double to);
   void watch(Frame& frame, Eigen::Index i, double t);
@@ -65,7 +65,11 @@ class IslandMotion {
   bool is_still(const CollisionState& state, double h) const;
   void bring_all(Frame& frame, double t);
 
+  SearchResult search_mesh(CollisionState& state, const CoursePair& pair, const SearchSpan& span,
+                           SearchWork& work);
+
   SimulationWorker worker_;
+  std::vector<int> triangles_;
   ContactStep step_;
   ImpactResponse response_;
 };

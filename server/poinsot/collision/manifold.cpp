@@ -6,8 +6,8 @@
 namespace poinsot {
 namespace {
 
-// A face counts as facing the other shape up to this tilt; cos(0.01 rad).
-constexpr double kFacing = 0.99995;
+// A face counts as facing the other shape up to this tilt; cos(0.02 rad).
+constexpr double kFacing = 0.9998;
 // A normal this near a face's is the face's, rounded; cos(4.5e-6 rad).
 constexpr double kSameNormal = 1 - 1e-11;
 // Edges count as parallel below this sine of their angle.
@@ -16,33 +16,41 @@ constexpr double kParallel = 0.02;
 // A clipped feature: every side of the reference adds at most one corner.
 struct Polygon {
   std::array<Vec3, 2 * Feature::kMaxCorners + 2> corners;
+  std::array<std::uint32_t, 2 * Feature::kMaxCorners + 2> features;
   int count = 0;
 
-  void add(const Vec3& corner) { corners[static_cast<std::size_t>(count++)] = corner; }
+  void add(const Vec3& corner, std::uint32_t feature) {
+    features[static_cast<std::size_t>(count)] = feature;
+    corners[static_cast<std::size_t>(count++)] = corner;
+  }
+  std::uint32_t feature(int i) const { return features[static_cast<std::size_t>(i)]; }
   const Vec3& operator[](int i) const { return corners[static_cast<std::size_t>(i)]; }
 };
 
-// Keeps the part of `f` with direction·x ≤ offset.
-Polygon clipped(const Polygon& f, const Vec3& direction, double offset) {
+// Keeps the part of `f` with direction·x ≤ offset. `side`: the number of what cuts.
+Polygon clipped(const Polygon& f, const Vec3& direction, double offset, std::uint32_t side) {
   Polygon result;
   if (f.count == 0) return result;
   const int edges = f.count > 2 ? f.count : f.count - 1;
   double dp = direction.dot(f[0]) - offset;
-  if (f.count <= 2 && dp <= 0) result.add(f[0]);
+  if (f.count <= 2 && dp <= 0) result.add(f[0], f.feature(0));
   for (int i = 0; i < edges; ++i) {
     const Vec3& p = f[i];
-    const Vec3& q = f[i + 1 == f.count ? 0 : i + 1];
+    const int next = i + 1 == f.count ? 0 : i + 1;
+    const Vec3& q = f[next];
     const double dq = direction.dot(q) - offset;
-    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) result.add(p + dp / (dp - dq) * (q - p));
-    if (dq <= 0) result.add(q);
+    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0))
+      result.add(p + dp / (dp - dq) * (q - p), edge_cut(f.feature(i), side, dq > 0));
+    if (dq <= 0) result.add(q, f.feature(next));
     dp = dq;
   }
   return result;
 }
 
-Polygon polygon(const Feature& f) {
+Polygon polygon(const Feature& f, bool of_a) {
   Polygon result;
-  for (int i = 0; i < f.count; ++i) result.add(f[i]);
+  for (int i = 0; i < f.count; ++i)
+    result.add(f[i], corner_of(of_a, f.id[static_cast<std::size_t>(i)]));
   return result;
 }
 
@@ -82,12 +90,12 @@ struct Facing {
   double alignment() const { return std::abs(face.dot(normal)); }
 
   // From an incident core point, `core_gap` along the normal from the reference core.
-  void add(PointSet& set, const Vec3& on_incident, double core_gap) const {
+  void add(PointSet& set, const Vec3& on_incident, double core_gap, std::uint32_t feature) const {
     const double gap = core_gap - pair.a.core_radius - pair.b.core_radius;
     if (gap > margin) return;
     const double to_middle =
         a_refers ? pair.b.core_radius + 0.5 * gap : -(pair.a.core_radius + 0.5 * gap);
-    set.add(on_incident + to_middle * normal, gap);
+    set.add(on_incident + to_middle * normal, gap, feature);
   }
 };
 
@@ -96,15 +104,16 @@ void clip_to_face(const Facing& facing, PointSet& set) {
   const Feature& face = facing.reference;
   const Vec3 up = facing.a_refers ? Vec3(-facing.normal) : facing.normal;
   const double slack = 4 * facing.pair.rounding();
-  Polygon kept = polygon(facing.incident);
+  Polygon kept = polygon(facing.incident, !facing.a_refers);
   for (int i = 0; i < face.count && kept.count > 0; ++i) {
     const Vec3 side = face[i + 1 == face.count ? 0 : i + 1] - face[i];
     const Vec3 outward = side.cross(up);
-    kept = clipped(kept, outward, outward.dot(face[i]) + slack * side.norm());
+    kept = clipped(kept, outward, outward.dot(face[i]) + slack * side.norm(),
+                   face.id[static_cast<std::size_t>(i)]);
   }
   const double alignment = facing.alignment();
   for (int i = 0; i < kept.count; ++i)
-    facing.add(set, kept[i], facing.face.dot(kept[i] - face[0]) / alignment);
+    facing.add(set, kept[i], facing.face.dot(kept[i] - face[0]) / alignment, kept.feature(i));
 }
 
 // The incident edge cut to what lies beside the reference edge; nothing unless they are parallel.
@@ -115,9 +124,9 @@ void clip_to_edge(const Facing& facing, PointSet& set) {
   const Vec3 other = facing.incident[1] - facing.incident[0];
   const double length2 = along.squaredNorm(), other2 = other.squaredNorm();
   if (along.cross(other).squaredNorm() > kParallel * kParallel * length2 * other2) return;
-  const Polygon kept =
-      clipped(clipped(polygon(facing.incident), along, along.dot(origin) + length2), -along,
-              -along.dot(origin));
+  const Polygon kept = clipped(
+      clipped(polygon(facing.incident, !facing.a_refers), along, along.dot(origin) + length2, 1),
+      -along, -along.dot(origin), 0);
   for (int i = 0; i < kept.count; ++i) {
     const double t = along.dot(kept[i] - origin) / length2;
     const double s = other.dot(kept[i] - facing.incident[0]) / other2;
@@ -125,7 +134,8 @@ void clip_to_edge(const Facing& facing, PointSet& set) {
     const Vec3 apart = (facing.a_refers ? -1.0 : 1.0) * (kept[i] - origin - t * along);
     const double height = apart.dot(facing.normal);
     const double aside2 = (apart - height * facing.normal).squaredNorm();
-    facing.add(set, kept[i], std::sqrt((height + round) * (height + round) + aside2) - round);
+    facing.add(set, kept[i], std::sqrt((height + round) * (height + round) + aside2) - round,
+               kept.feature(i));
   }
 }
 
@@ -134,7 +144,11 @@ void clip_to_edge(const Facing& facing, PointSet& set) {
 void build_manifold(const ConvexPair& pair, const Witness& witness, double margin,
                     Manifold& manifold) {
   manifold.clear();
-  if (witness.gap > margin) return;
+  if (witness.gap <= margin) gather_points(pair, witness, margin, true).reduce_into(manifold);
+}
+
+PointSet gather_points(const ConvexPair& pair, const Witness& witness, double margin,
+                       bool keep_witness) {
   const double same_gap = kSameGap * std::min(pair.a.size, pair.b.size);
   const Facing facing(pair, witness.normal, margin);
   PointSet set(facing.normal, same_gap);
@@ -144,11 +158,12 @@ void build_manifold(const ConvexPair& pair, const Witness& witness, double margi
     clip_to_edge(facing, set);
   }
   // What is clipped may leave out the deepest point: a rim between two corners of its octagon.
-  if (set.count() == 0 || witness.gap < set.least_gap() - same_gap) {
+  if (keep_witness && witness.gap <= margin &&
+      (set.count() == 0 || witness.gap < set.least_gap() - same_gap)) {
     const double aside = 0.5 * (pair.b.core_radius - pair.a.core_radius);
     set.add(0.5 * (witness.on_a + witness.on_b) + aside * facing.normal, witness.gap);
   }
-  set.reduce_into(manifold);
+  return set;
 }
 
 Choice choose_points(std::span<const Candidate> candidates, double same_gap) {
@@ -204,7 +219,7 @@ PointSet::PointSet(const Vec3& normal, double same_gap) : normal_(normal), same_
   v_ = normal.cross(u_);
 }
 
-void PointSet::add(const Vec3& point, double gap) {
+void PointSet::add(const Vec3& point, double gap, std::uint32_t feature) {
   auto slot = static_cast<std::size_t>(count_);
   if (count_ < kCapacity) {
     ++count_;
@@ -216,7 +231,7 @@ void PointSet::add(const Vec3& point, double gap) {
     slot = static_cast<std::size_t>(shallowest - candidates_.begin());
   }
   points_[slot] = point;
-  candidates_[slot] = {u_.dot(point), v_.dot(point), gap};
+  candidates_[slot] = {u_.dot(point), v_.dot(point), gap, feature};
 }
 
 double PointSet::least_gap() const {
@@ -233,7 +248,7 @@ void PointSet::reduce_into(Manifold& manifold) const {
   manifold.count = choice.count;
   for (std::size_t k = 0; k < static_cast<std::size_t>(choice.count); ++k) {
     const std::size_t i = choice.index[k];
-    manifold.points[k] = {points_[i], candidates_[i].gap};
+    manifold.points[k] = {points_[i], candidates_[i].gap, candidates_[i].feature};
   }
 }
 

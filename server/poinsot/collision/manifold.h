@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "poinsot/collision/collider.h"
@@ -14,9 +15,22 @@
 
 namespace poinsot {
 
+// What makes a point: a number that stays while the same corners, edges and faces meet, whichever
+// way the pair is asked for, and that no other point of the manifold has. Either the nearest point
+// of the pair, which is nothing in particular, or a corner of one shape, or an edge of one cut by a
+// side of the other's face; crossed edges count as the latter.
+inline constexpr std::uint32_t kNearestFeature = 0;
+constexpr std::uint32_t corner_of(bool a, std::uint32_t corner) {
+  return (a ? 0x80000000u : 0x40000000u) | (corner & 0x7fffu);
+}
+constexpr std::uint32_t edge_cut(std::uint32_t edge, std::uint32_t side, bool leaving) {
+  return (edge & 0xc0007fffu) | (leaving ? 0x8000u : 0u) | (((side + 1) & 0x3fffu) << 16);
+}
+
 struct ManifoldPoint {
   Vec3 point;      // [m]
   double gap = 0;  // [m]
+  std::uint32_t feature = kNearestFeature;
 };
 
 struct Manifold {
@@ -44,12 +58,19 @@ struct Witness {
 void build_manifold(const ConvexPair& pair, const Witness& witness, double margin,
                     Manifold& manifold);
 
+class PointSet;
+// The points of such a manifold before they are reduced. Without `keep_witness` only what features
+// that face each other have in common.
+PointSet gather_points(const ConvexPair& pair, const Witness& witness, double margin,
+                       bool keep_witness);
+
 inline constexpr double kSameGap = 1e-7;  // [-] of the smaller body: gaps that count as equal
 
 // A candidate for a manifold: its place in the contact plane, in any two perpendicular axes, and
 // its gap, all in metres.
 struct Candidate {
   double u, v, gap;
+  std::uint32_t feature = kNearestFeature;
 };
 
 // Which up to four candidates span a manifold best: the deepest, the farthest from it, the one that
@@ -69,9 +90,13 @@ class PointSet {
 
   PointSet(const Vec3& normal, double same_gap);
 
-  void add(const Vec3& point, double gap);  // when full, the shallowest gives way
+  void add(const Vec3& point, double gap,
+           std::uint32_t feature = kNearestFeature);  // when full, the shallowest gives way
   int count() const { return count_; }
   double least_gap() const;
+  const Vec3& normal() const { return normal_; }
+  const Vec3& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  double gap(int i) const { return candidates_[static_cast<std::size_t>(i)].gap; }
   void reduce_into(Manifold& manifold) const;
 
  private:

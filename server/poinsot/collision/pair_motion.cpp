@@ -9,11 +9,19 @@ namespace poinsot {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Rates come from normals that the narrow phase gives to about this [rad].
-constexpr double kRateRounding = 1e-10;
+// Normals are known to about this [rad], and with them how fast shapes that slide come nearer: of
+// spheres, capsules and polyhedra, and of shapes with curved surfaces that have no closed form.
+constexpr double kNormal = 1e-10;
+constexpr double kCurvedNormal = 3e-6;
 
 bool is_plane(const Collider& collider) {
   return std::holds_alternative<HalfSpace>(collider.shape);
+}
+
+bool is_curved(const Collider& collider) {
+  return std::holds_alternative<Cylinder>(collider.shape) ||
+         std::holds_alternative<Cone>(collider.shape) ||
+         std::holds_alternative<Ellipsoid>(collider.shape);
 }
 
 }  // namespace
@@ -40,14 +48,14 @@ double PairMotion::Side::speed() const {
   return now.velocity.linear.norm() + ball * now.velocity.angular.norm();
 }
 
-TurningCore PairMotion::Side::along(const Vec3& d) const {
+TurningCore PairMotion::Side::along(const Vec3& d, const Vec3& turn) const {
   TurningCore core;
   if (r == 0) return core;
   core.collider = collider;
   core.R = R;
   core.offset = offset;
   core.d = d;
-  core.d_rate = d.cross(now.velocity.angular);
+  core.d_rate = d.cross(now.velocity.angular - turn);
   return core;
 }
 
@@ -90,11 +98,35 @@ AxisBound PairMotion::bound_along(const Vec3& n) const {
   bound.v = n.dot(a_.now.velocity.linear - b_.now.velocity.linear);
   bound.central_z = apart - a_.ball - b_.ball;
   bound.central_c = bound.c = n.dot(acceleration_) - slack_;
-  bound.a = a_.along(-n);
-  bound.b = b_.along(n);
+  bound.a = a_.along(-n, Vec3::Zero());
+  bound.b = b_.along(n, Vec3::Zero());
   if (!bound.a.collider && !bound.b.collider) return bound;
   for (const Side* side : {&a_, &b_})
     if (side->r > 0) bound.c -= side->r * side->course->rotation().turn_acceleration(n);
+  bound.c = std::min(bound.c, 0.0);
+  return bound;
+}
+
+AxisBound PairMotion::bound_turning(const Vec3& n, const Vec3& turn, double most) const {
+  const Vec3 d = a_.now.pose.c - b_.now.pose.c;
+  const Vec3 v = a_.now.velocity.linear - b_.now.velocity.linear;
+  const double rate = turn.norm(), push = acceleration_.norm();
+  const double speed = v.norm() + most * (push + slack_);  // [m/s] largest
+  AxisBound bound;
+  bound.z = n.dot(d) - radii_;
+  bound.v = n.dot(v) + turn.cross(n).dot(d);
+  bound.central_z = 0;
+  bound.central_c = 0;
+  bound.a = a_.along(-n, turn);
+  bound.b = b_.along(n, turn);
+  bound.c = n.dot(acceleration_) - push * std::min(2.0, rate * most) - slack_ -
+            rate * (rate * (d.norm() + most * speed) + 2 * speed);
+  for (const Side* side : {&a_, &b_}) {
+    if (side->r == 0) continue;
+    const RotationBound& rotation = side->course->rotation();
+    const double relative = rate + rotation.omega;
+    bound.c -= side->r * (relative * relative + rotation.alpha);
+  }
   bound.c = std::min(bound.c, 0.0);
   return bound;
 }
@@ -119,6 +151,12 @@ double PairMotion::closing(double h) const {
          b_.r * b_.course->rotation().omega;
 }
 
+double PairMotion::closing_along(const Vec3& n, double h) const {
+  const double linear = std::abs(n.dot(a_.now.velocity.linear - b_.now.velocity.linear));
+  return linear + h * (std::abs(n.dot(acceleration_)) + slack_) +
+         a_.r * a_.course->rotation().turn_rate(n) + b_.r * b_.course->rotation().turn_rate(n);
+}
+
 double PairMotion::rounding() const {
   const double where = a_.now.pose.c.norm() + b_.now.pose.c.norm() + a_.ball + b_.ball;
   return 4 * kEpsilon *
@@ -126,7 +164,8 @@ double PairMotion::rounding() const {
 }
 
 double PairMotion::rate_rounding() const {
-  return kRateRounding * (a_.speed() + b_.speed());
+  const bool curved = !has_plane_ && (is_curved(*a_.collider) || is_curved(*b_.collider));
+  return (curved ? kCurvedNormal : kNormal) * (a_.speed() + b_.speed());
 }
 
 }  // namespace poinsot

@@ -21,6 +21,8 @@ class PairMotion {
   const Collider& shape_a() const { return *a_.collider; }
   const Collider& shape_b() const { return *b_.collider; }
   Pose pose_a() const { return a_.now.pose * a_.collider->in_body; }  // of S in W
+  const MovingPose& body_a() const { return a_.now; }
+  const MovingPose& body_b() const { return b_.now; }
   Pose pose_b() const { return b_.now.pose * b_.collider->in_body; }
   bool is_swapped() const { return swapped_; }
   bool has_plane() const { return has_plane_; }
@@ -30,6 +32,8 @@ class PairMotion {
   // Along a unit n in W, from b to a, at the time gone to.
   double gap_along(const Vec3& n) const { return bound_along(n).at(0); }
   AxisBound bound_along(const Vec3& n) const;
+  // Along an axis that turns at `turn` ⟂ n [rad/s], in W; holds for x ≤ most.
+  AxisBound bound_turning(const Vec3& n, const Vec3& turn, double most) const;
 
   // Longest proven x ≤ most for which the balls that hold the shapes do not meet [s].
   double balls_apart_until(double most) const;
@@ -38,6 +42,8 @@ class PairMotion {
   // the pair come nearer between the time gone to and h later [m/s].
   double turning() const { return turning_; }
   double closing(double h) const;
+  // The same of how fast the gap along n closes or opens, also within h before.
+  double closing_along(const Vec3& n, double h) const;
 
   double size() const { return size_; }  // [m] the smaller
   // What gaps are known to [m], and their rates [m/s], now.
@@ -57,7 +63,7 @@ class PairMotion {
     Side(const Collider& collider, const Course& course);
     void go_to(double t);
     double speed() const;  // [m/s] largest now
-    TurningCore along(const Vec3& d) const;
+    TurningCore along(const Vec3& d, const Vec3& turn) const;
   };
 
   bool swapped_, has_plane_;

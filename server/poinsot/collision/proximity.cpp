@@ -1,6 +1,7 @@
 #include "poinsot/collision/proximity.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -8,14 +9,23 @@
 #include "poinsot/collision/box_box.h"
 #include "poinsot/collision/epa.h"
 #include "poinsot/collision/half_space.h"
+#include "poinsot/collision/mesh_pairs.h"
 #include "poinsot/collision/pair_table.h"
 #include "poinsot/collision/proximity_fcl.h"
 
 namespace poinsot {
 namespace {
 
+// [-] of the smaller radius: a manifold may be of a depth this much larger than the least.
+constexpr double kManifoldAccuracy = 1e-4;
+
 char kernel(const Collider& a, const Collider& b) {
   return kPairTable[a.shape.index()][b.shape.index()];
+}
+
+bool can_be_measured(const Pose& pose_a, const Pose& pose_b) {
+  return std::isfinite((pose_a.c - pose_b.c).squaredNorm() + pose_a.q.squaredNorm() +
+                       pose_b.q.squaredNorm());
 }
 
 // The order in which a pair is computed, whichever way it is asked for.
@@ -39,19 +49,21 @@ struct CoreQuery {
 
 CoreQuery query_cores(const ConvexPair& pair,
                       double enough = std::numeric_limits<double>::infinity(),
-                      const Vec3* first = nullptr) {
+                      const Vec3* first = nullptr, double accuracy = kEpaGap) {
   const double radii = pair.a.core_radius + pair.b.core_radius;
   const GjkResult near = gjk(pair, enough + radii, first);
   if (near.separated)
     return {{near.normal, near.on_a, near.on_b, near.distance - radii}, near.lower - radii, true};
-  const Penetration deep = penetration(pair, near);
+  const Penetration deep = penetration(pair, near, accuracy);
   // The depth is bounded from above: the gap from below.
   return {{deep.normal, deep.on_a, deep.on_b, -deep.lower - radii}, -deep.depth - radii, false};
 }
 
 // Beyond the margin the search may stop with coarse bounds: the manifold is empty either way.
 void general_manifold(const ConvexPair& pair, double margin, Manifold& manifold) {
-  const CoreQuery query = query_cores(pair, margin);
+  CoreQuery query = query_cores(pair, margin, nullptr, kManifoldAccuracy);
+  // A depth is a least one to rounding, even where the bound from the other side is coarse.
+  if (!query.apart) query.witness.gap = query.lower;
   manifold.clear();
   if (query.lower <= margin) build_manifold(pair, query.witness, margin, manifold);
 }
@@ -97,10 +109,20 @@ Gap gap_of_cores(const Collider& a, const Pose& pose_a, const Collider& b, const
           pose_a * Vec3(near.on_b + b.core_radius * n)};
 }
 
+void deepest_mesh_manifold(const Collider& a, const Pose& pose_a, const Collider& b,
+                           const Pose& pose_b, double margin, Manifold& manifold) {
+  thread_local std::vector<Manifold> all;
+  mesh_manifolds(a, pose_a, b, pose_b, margin, all);
+  manifold.clear();
+  if (!all.empty()) manifold = all.front();
+}
+
 }  // namespace
 
 void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                    double margin, Manifold& manifold) {
+  manifold.clear();
+  if (!can_be_measured(pose_a, pose_b)) return;
   if (is_swapped(a, b)) {
     find_manifold(b, pose_b, a, pose_a, margin, manifold);
     manifold.normal = -manifold.normal;
@@ -122,6 +144,8 @@ void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, con
       shape_on_half_space(a, plane.normal, plane.offset, margin, manifold);
       return to_world(pose_a, manifold);
     }
+    case 'M':
+      return deepest_mesh_manifold(a, pose_a, b, pose_b, margin, manifold);
     default:
       POINSOT_CHECK(!"this pair never meets");
   }
@@ -129,6 +153,12 @@ void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, con
 
 void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                     double margin, std::vector<Manifold>& manifolds) {
+  if (is_swapped(a, b)) {
+    find_manifolds(b, pose_b, a, pose_a, margin, manifolds);
+    for (Manifold& manifold : manifolds) manifold.normal = -manifold.normal;
+    return;
+  }
+  if (kernel(a, b) == 'M') return mesh_manifolds(a, pose_a, b, pose_b, margin, manifolds);
   manifolds.resize(1);
   find_manifold(a, pose_a, b, pose_b, margin, manifolds.front());
   if (manifolds.front().count == 0) manifolds.clear();
@@ -136,6 +166,10 @@ void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, co
 
 Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
              GapHint* hint) {
+  if (!can_be_measured(pose_a, pose_b)) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    return {kUnknown, -kUnknown, Vec3::UnitZ(), Vec3::Zero(), Vec3::Zero()};
+  }
   if (is_swapped(a, b)) {
     if (hint) hint->axis = -hint->axis;
     Gap gap = find_gap(b, pose_b, a, pose_a, hint);
@@ -144,9 +178,10 @@ Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pos
     std::swap(gap.point_a, gap.point_b);
     return gap;
   }
-  const Gap gap = kernel(a, b) == 'H'
-                      ? gap_to_half_space(a, pose_a, std::get<HalfSpace>(b.shape), pose_b)
-                      : gap_of_cores(a, pose_a, b, pose_b, hint);
+  const char by = kernel(a, b);
+  const Gap gap = by == 'H'   ? gap_to_half_space(a, pose_a, std::get<HalfSpace>(b.shape), pose_b)
+                  : by == 'M' ? gap_to_mesh(a, pose_a, b, pose_b)
+                              : gap_of_cores(a, pose_a, b, pose_b, hint);
   if (hint) *hint = {gap.normal, true};
   return gap;
 }

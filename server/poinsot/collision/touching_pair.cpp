@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "poinsot/collision/axis_turn.h"
+
 namespace poinsot {
 namespace {
 
@@ -12,18 +14,20 @@ constexpr int kSteps = 64;
 Touching follow_touching(PairMotion& motion, NearestAxis& axis, double to, double touch) {
   const double floor = std::min(axis.gap, 0.0) - touch;
   for (int step = 0; step < kSteps; ++step) {
-    const AxisBound bound = motion.bound_along(axis.n);
-    if (bound.slope() < -motion.rate_rounding())
+    if (gap_rate(motion, axis) < -motion.rate_rounding())
       return step == 0 ? Touching::approaches : Touching::pressed;
     const double most = to - motion.time();
-    if (const double x = bound.leaves(touch, most); x > 0) {
-      motion.go_to(std::min(to, motion.time() + x));
-      axis = {axis.n, motion.gap_along(axis.n), axis.middle};
-      return Touching::leaves;
-    }
-    const double x = bound.above_until(floor, most);
-    if (x >= most) return Touching::stays;
+    const Vec3 turn = axis_turn(motion, axis.n);
+    const double proven = turning_for(motion, turn, most);
+    const AxisBound bound = turn == Vec3::Zero() ? motion.bound_along(axis.n)
+                                                 : motion.bound_turning(axis.n, turn, proven);
+    const double out = bound.leaves(touch, proven);
+    const double x = out > 0 ? out : bound.above_until(floor, proven);
+    if (out == 0 && x >= most) return Touching::stays;
     motion.go_to(std::min(to, motion.next_time(x)));
+    axis.n = turned_axis(axis.n, turn, x);
+    axis.gap = motion.gap_along(axis.n);
+    if (out > 0) return Touching::leaves;
     axis = nearest_axis(motion, axis.n);
     if (axis.gap > touch) return Touching::leaves;
   }

@@ -10,11 +10,12 @@ namespace {
 constexpr double kShift = 1e-9;      // of Newton's matrix where it may be singular
 constexpr double kRounding = 1e-14;  // relative residual taken as none
 constexpr double kGood = 1e-9;       // relative residual still taken as found
-constexpr int kRounds = 12;          // projections, then Newton; twice as many the next time
+constexpr double kFound = 1e-12;     // good enough to end the search
+constexpr int kRounds = 8;           // projections, then Newton; twice as many the next time
 constexpr int kFirstProjections = 4;
 constexpr int kNewtonSteps = 14;
 constexpr Eigen::Index kNewtonPoints = 64;  // more: projections alone, a matrix costs (3n)³
-constexpr Eigen::Index kProjectionWork = 20'000'000;  // projections · points²
+constexpr Eigen::Index kProjectionWork = 4'000'000;  // projections · points²
 
 std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
@@ -196,7 +197,7 @@ bool FrictionImpulses::newton() {
   }
   p_ = kept_;
   best_ = evaluate();
-  return best_ <= kGood;
+  return best_ <= kFound;
 }
 
 bool FrictionImpulses::run(const ImpactSystem& system, double* p, bool normals_given) {

@@ -7,11 +7,13 @@
 namespace poinsot {
 namespace {
 
-constexpr double kShift = 1e-9;     // ε, of a matrix with unit diagonal
+constexpr double kShift = 1e-9;  // ε, of a matrix with unit diagonal
+constexpr double kLeastShift = 1e-13;
+constexpr int kShiftSteps = 6;  // proximal steps before ε is made smaller
+constexpr int kProximalSteps = 48;
 constexpr double kNoise = 1e-14;    // of the numbers that cancel: below it nothing is infeasible
-constexpr double kSettled = 1e-16;  // the same for the end of the proximal steps
-constexpr int kProximalSteps = 60;
-constexpr int kPatience = 3;  // block exchanges without progress before Murty's
+constexpr double kSettled = 4e-15;  // the same for the end of the proximal steps
+constexpr int kPatience = 3;        // block exchanges without progress before Murty's
 
 std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
@@ -27,11 +29,11 @@ void NormalImpulses::factor() {
   factor_.resize(at(n_ * n_));
   for (std::size_t j = 0; j < m; ++j) {
     for (std::size_t i = j; i < m; ++i) {
-      double sum = N_[at(pushing_[i]) + at(pushing_[j] * n_)] + (i == j ? kShift : 0);
+      double sum = N_[at(pushing_[i]) + at(pushing_[j] * n_)] + (i == j ? shift_ : 0);
       for (std::size_t k = 0; k < j; ++k) sum -= factor_[i * m + k] * factor_[j * m + k];
       // The shift is far above rounding, so the pivot is positive.
       factor_[i * m + j] =
-          i == j ? std::sqrt(std::max(sum, kShift * kShift)) : sum / factor_[j * m + j];
+          i == j ? std::sqrt(std::max(sum, shift_ * shift_)) : sum / factor_[j * m + j];
     }
   }
   factored_ = true;
@@ -93,7 +95,7 @@ bool NormalImpulses::exchange() {
 bool NormalImpulses::pivot() {
   fewest_ = n_ + 1;
   patience_ = kPatience;
-  const Eigen::Index limit = 50 + 5 * n_;
+  const Eigen::Index limit = 200 + 20 * n_;
   for (Eigen::Index round = 0; round < limit; ++round) {
     if (!factored_) factor();
     solve_pushing();
@@ -107,7 +109,7 @@ bool NormalImpulses::settled() const {
     if (!pushes_[at(i)]) continue;
     double size = std::abs(u_[at(i)]);
     for (const int j : pushing_) size += std::abs(N_[at(i + j * n_)] * lambda_[at(j)]);
-    if (kShift * std::abs(lambda_[at(i)] - previous_[at(i)]) > kSettled * size) return false;
+    if (shift_ * std::abs(lambda_[at(i)] - previous_[at(i)]) > kSettled * size) return false;
   }
   return true;
 }
@@ -127,11 +129,22 @@ bool NormalImpulses::solve(Eigen::Index n, const double* N, const double* u, dou
     pushes_[at(i)] = u[i] < 0 ? 1 : 0;
   }
   factored_ = false;
-  bool done = false;
-  for (int step = 0; step < kProximalSteps && !done; ++step) {
-    for (Eigen::Index i = 0; i < n; ++i) target_[at(i)] = u_[at(i)] - kShift * previous_[at(i)];
-    if (!pivot()) break;
-    done = settled();
+  shift_ = kShift;
+  // Once settled, one step more costs little and takes out what is below the mark.
+  bool done = false, ended = false;
+  for (int step = 0; step < kProximalSteps && !ended; ++step) {
+    // Directions that N hardly sees (masses far apart) take many steps unless ε is small.
+    if (step > 0 && step % kShiftSteps == 0 && shift_ > kLeastShift) {
+      shift_ *= 0.1;
+      factored_ = false;
+    }
+    for (Eigen::Index i = 0; i < n; ++i) target_[at(i)] = u_[at(i)] - shift_ * previous_[at(i)];
+    if (!pivot()) {
+      lambda_ = previous_;
+      break;
+    }
+    ended = done;
+    done = done || settled();
     previous_ = lambda_;
   }
   for (Eigen::Index i = 0; i < n; ++i) lambda[i] = scale_[at(i)] * std::max(0.0, lambda_[at(i)]);

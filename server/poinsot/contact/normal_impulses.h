@@ -40,6 +40,7 @@ class NormalImpulses {
   std::vector<double> factor_;  // Cholesky, lower
   std::vector<double> column_;
   bool factored_ = false;
+  double shift_ = 0;  // ε
   Eigen::Index fewest_ = 0;
   int patience_ = 0;
 };

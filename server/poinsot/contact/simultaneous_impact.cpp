@@ -8,6 +8,8 @@ namespace poinsot {
 namespace {
 
 constexpr double kApproach = 1e-12;  // of the magnitudes that cancel; slower is not an approach
+constexpr double kFaded = 1e-9;      // the same for reflections that only fade away
+constexpr double kNoneHeld = 0;      // a threshold that every restitution reaches
 constexpr int kPasses = 64;          // of reflections, and two more a point
 constexpr int kGrowths = 8;          // of the set of points an inelastic impact presses on
 
@@ -29,11 +31,19 @@ void SimultaneousImpact::start() {
   }
 }
 
-bool SimultaneousImpact::find_approaching() {
+bool SimultaneousImpact::find_approaching(double threshold) {
   members_.clear();
-  for (Eigen::Index i = 0; i < system_->points; ++i)
-    if (v_[at(3 * i + 2)] < -kApproach * scale_[at(i)]) members_.push_back(static_cast<int>(i));
-  return !members_.empty();
+  bool any = false;
+  faded_ = true;
+  for (Eigen::Index i = 0; i < system_->points; ++i) {
+    const double un = v_[at(3 * i + 2)], size = scale_[at(i)];
+    const bool approaches = un < -kApproach * size;
+    const bool held = un <= kApproach * size && system_->restitution[i] < threshold;
+    if (approaches || held) members_.push_back(static_cast<int>(i));
+    any = any || approaches;
+    faded_ = faded_ && un >= -kFaded * size;
+  }
+  return any;
 }
 
 void SimultaneousImpact::gather() {
@@ -137,9 +147,9 @@ void SimultaneousImpact::end_approach() {
 void SimultaneousImpact::reflections(double threshold) {
   start();
   const int limit = kPasses + 2 * static_cast<int>(system_->points);
-  for (int pass = 0; find_approaching(); ++pass) {
-    if (pass == limit) {
-      result_.converged = false;
+  for (int pass = 0; find_approaching(threshold); ++pass) {
+    if (faded_ || pass == limit) {
+      if (!faded_) result_.converged = false;
       end_approach();
       return;
     }
@@ -149,6 +159,13 @@ void SimultaneousImpact::reflections(double threshold) {
     add(1.0);
     restore(threshold);
     add(1.0);
+    // What that presses on inelastic points ends there.
+    if (!find_approaching(threshold)) return;
+    std::erase_if(members_, [&](int i) { return system_->restitution[i] >= threshold; });
+    if (members_.empty()) continue;
+    gather();
+    compress();
+    add(1.0);
   }
 }
 
@@ -156,7 +173,7 @@ void SimultaneousImpact::reflections(double threshold) {
 void SimultaneousImpact::inelastic() {
   start();
   is_member_.assign(at(system_->points), 0);
-  for (int growth = 0; find_approaching(); ++growth) {
+  for (int growth = 0; find_approaching(kNoneHeld); ++growth) {
     if (frictionless_) {
       end_approach();
       return;
@@ -193,7 +210,7 @@ SimultaneousImpact::Result SimultaneousImpact::resolve(const ImpactSystem& syste
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
   std::fill(p.begin(), p.end(), 0.0);
   start();
-  if (!find_approaching()) return result_;
+  if (!find_approaching(kNoneHeld)) return result_;
   double below = 0;
   for (const double level : levels_) {
     if (level <= 0) continue;

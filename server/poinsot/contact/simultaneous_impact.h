@@ -39,7 +39,9 @@ class SimultaneousImpact {
   void inelastic();
 
   void start();
-  bool find_approaching();         // into members_, points that approach at v_; false: none
+  // Into members_: points that approach at v_, and inelastic ones that do not part, which hold
+  // while the others are pressed. False: none approaches.
+  bool find_approaching(double threshold);
   void gather();                   // the members' part of the system, from the velocities v_
   void compress();                 // the inelastic impact of the members, into part_p_
   void restore(double threshold);  // what the elastic members give back, into part_p_
@@ -57,6 +59,7 @@ class SimultaneousImpact {
   std::vector<double> q_, v_;   // impulses so far and the velocities after them
   std::vector<double> scale_;   // [m/s] a point: magnitudes that cancel in its velocity
   std::vector<int> members_;
+  bool faded_ = false;  // they approach, but too slowly to be worth a reflection
   std::vector<char> is_member_;
   ImpactSystem part_;  // of the members
   std::vector<double> part_A_, part_u_, part_friction_, part_N_, part_un_, part_p_, lambda_;

@@ -21,10 +21,6 @@ INSTANTIATE_TEST_SUITE_P(Gjk, EveryPair,
                                   name_of(std::get<1>(p.param));
                          });
 
-bool is_polytope(int kind) {
-  return kind == kSphere || kind == kBox || kind == kCapsule || kind == kConvex;  // their cores
-}
-
 // Proves a separated result by itself: the points lie on the shapes, so the distance is no less
 // than true; the slab along the normal is empty, so it is no more. `scale` [m]: of the coordinates.
 void expect_proven(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
@@ -45,8 +41,7 @@ void expect_proven(const Collider& a, const Pose& pose_a, const Collider& b, con
 TEST_P(EveryPair, DistanceIsProvenByItsOwnPointsAndSlab) {
   const auto [kind_a, kind_b] = GetParam();
   Random random(11 + static_cast<std::uint64_t>(10 * kind_a + kind_b));
-  // Polytopes end exactly; round cores near touching at the rounding of ever thinner triangles.
-  const double gap = is_polytope(kind_a) && is_polytope(kind_b) ? 2e-12 : 2e-8;
+  const double gap = kGjkGap;  // of radii up to 1.8 m
   int separated = 0;
   for (int i = 0; i < 1500; ++i) {
     const Collider a = collider(random_shape(kind_a, random)),
@@ -59,7 +54,7 @@ TEST_P(EveryPair, DistanceIsProvenByItsOwnPointsAndSlab) {
     EXPECT_LT(r.iterations, kGjkIterations);
     if (!r.separated) continue;
     ++separated;
-    expect_proven(a, pose_a, b, pose_b, r, 2 * reach, gap);
+    expect_proven(a, pose_a, b, pose_b, r, 2 * reach, 2 * gap);
     if (testing::Test::HasFailure()) FAIL() << "case " << i;
   }
   EXPECT_GT(separated, 200);
@@ -98,7 +93,7 @@ TEST_P(EveryPair, DistanceScalesFromTenthsOfMillimetresToTenKilometres) {
                         random.rotation()};
       const GjkResult r = gjk({a, pose_a, b, pose_b});
       if (!r.separated) continue;
-      expect_proven(a, pose_a, b, pose_b, r, 2 * reach, 2e-8 * size);
+      expect_proven(a, pose_a, b, pose_b, r, 2 * reach, 2 * kGjkGap * size);
       if (testing::Test::HasFailure()) FAIL() << "size " << size << " case " << i;
     }
   }
@@ -115,9 +110,7 @@ TEST_P(EveryPair, SmallAgainstHugeLosesOnlyRounding) {
     const Pose pose_b = pose_at_gap(a.shape, pose_a, b.shape, gap, random);
     const GjkResult r = gjk({a, pose_a, b, pose_b});
     if (!r.separated) continue;
-    // Polytopes lose the rounding of 1 km coordinates, round cores 2e-8 of the larger size.
-    const bool exact = is_polytope(kind_a) && is_polytope(kind_b);
-    expect_proven(a, pose_a, b, pose_b, r, 4000, exact ? 1e-12 : 2e-5);
+    expect_proven(a, pose_a, b, pose_b, r, 4000, 0);  // the rounding of 1 km coordinates
     if (testing::Test::HasFailure()) FAIL() << "case " << i;
   }
 }
@@ -126,7 +119,6 @@ TEST_P(EveryPair, NothingIsLostFarFromTheOrigin) {
   const auto [kind_a, kind_b] = GetParam();
   Random random(79 + static_cast<std::uint64_t>(10 * kind_a + kind_b));
   const Vec3 far(1e6, -1e6, 1e6);
-  const bool exact = is_polytope(kind_a) && is_polytope(kind_b);
   for (int i = 0; i < 60; ++i) {
     const Collider a = collider(random_shape(kind_a, random)),
                    b = collider(random_shape(kind_b, random));
@@ -137,7 +129,7 @@ TEST_P(EveryPair, NothingIsLostFarFromTheOrigin) {
     ASSERT_EQ(here.separated, there.separated);
     if (!here.separated) continue;
     // Coordinates of 1e6 m are multiples of 1.2e-10 m.
-    ASSERT_NEAR(here.distance, there.distance, exact ? 2e-10 : 1e-9) << "case " << i;
+    ASSERT_NEAR(here.distance, there.distance, 4e-10) << "case " << i;
   }
 }
 
@@ -152,7 +144,7 @@ TEST_P(EveryPair, SwappingTheArgumentsSwapsTheAnswer) {
     const GjkResult ab = gjk({a, pose_a, b, pose_b}), ba = gjk({b, pose_b, a, pose_a});
     ASSERT_EQ(ab.separated, ba.separated) << "case " << i;
     if (!ab.separated) continue;
-    ASSERT_NEAR(ab.distance, ba.distance, 2e-8) << "case " << i;
+    ASSERT_NEAR(ab.distance, ba.distance, 4 * kGjkGap) << "case " << i;
   }
 }
 
@@ -230,7 +222,7 @@ TEST(Gjk, ThinPlatesAndNeedlesKeepFullAccuracy) {
     const Pose pose_b{pose_a.c + random.uniform(0.1, 1) * random.direction(), random.rotation()};
     const GjkResult r = gjk({a, pose_a, b, pose_b});
     if (!r.separated) continue;
-    expect_proven(a, pose_a, b, pose_b, r, 4, 1e-9);
+    expect_proven(a, pose_a, b, pose_b, r, 4, kGjkGap);
     if (testing::Test::HasFailure()) FAIL() << "case " << i << " thickness " << thin;
   }
 }

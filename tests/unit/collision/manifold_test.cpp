@@ -249,6 +249,82 @@ TEST(Manifold, AConeStandsOnABoxOnItsRing) {
   EXPECT_NEAR(area(m), 0.32, 1e-3);
 }
 
+// A face of every kind on a face of every kind, shifted, turned and tilted: at least three points
+// hold it, whichever shape comes first.
+struct Standing {
+  Shape shape;
+  Quat q;       // that turns its face down
+  double half;  // [m] from its centre to the face
+};
+
+std::vector<Standing> standing_shapes() {
+  const Quat none = Quat::Identity(), over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
+  return {{Box{{1, 0.8, 0.6}}, none, 0.3}, {prism(6, 0.5, 0.6), none, 0.3},
+          {prism(3, 0.5, 0.6), over, 0.3}, {prism(40, 0.5, 0.6), none, 0.3},
+          {Cylinder{0.5, 0.6}, none, 0.3}, {Cone{0.5, 0.6}, none, 0.3}};
+}
+
+TEST(Manifold, FacesOnFacesHaveThreePointsWhileTheyTilt) {
+  Random random(11);
+  const Quat over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
+  for (const Standing& base : standing_shapes()) {
+    for (const Standing& top : standing_shapes()) {
+      for (const double tilt : {0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
+        for (int i = 0; i < 24; ++i) {
+          const double gap = (i % 2 ? 1 : -1) * random.log_uniform(1e-8, 1e-3);
+          const Pose world{random.in_box(3), random.rotation()};
+          const Quat about(Eigen::AngleAxisd(random.uniform(0, 6), Vec3::UnitZ()));
+          const double angle = random.uniform(0, 6);
+          const Quat tilted(Eigen::AngleAxisd(tilt, Vec3(std::cos(angle), std::sin(angle), 0)));
+          const Vec3 aside(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 0);
+          const Pose pose_a = world * Pose{{0, 0, -base.half}, over * base.q};
+          Pose pose_b = world * Pose{aside + Vec3(0, 0, top.half + 0.01), tilted * about * top.q};
+          const Collider a = collider(base.shape, 4), b = collider(top.shape, 9);
+          // Moved along the plane's normal until the gap is as wanted.
+          for (int k = 0; k < 3; ++k) {
+            const Gap now = find_gap(a, pose_a, b, pose_b);
+            pose_b.c += (gap - now.value) * (world.q * Vec3::UnitZ());
+          }
+          Manifold m;
+          find_manifold(a, pose_a, b, pose_b, 0.025, m);
+          ASSERT_GE(m.count, 3) << shape_name(top.shape) << " on " << shape_name(base.shape)
+                                << " tilt " << tilt << " gap " << gap;
+          for (std::size_t k = 0; k < static_cast<std::size_t>(m.count); ++k)
+            for (std::size_t l = 0; l < k; ++l) ASSERT_NE(m.points[k].feature, m.points[l].feature);
+          const double now = find_gap(a, pose_a, b, pose_b).value;
+          EXPECT_NEAR(least_gap(m), now, 1e-6)
+              << shape_name(top.shape) << " on " << shape_name(base.shape) << " tilt " << tilt
+              << " gap " << gap;
+          // Crossed edges may be nearest: their normal leans more than the faces.
+          EXPECT_GT(std::abs((world.q.conjugate() * m.normal).z()), std::cos(0.02));
+        }
+      }
+    }
+  }
+}
+
+TEST(Manifold, FacesOnAHalfSpaceHaveThreePointsWhileTheyTilt) {
+  Random random(12);
+  const Collider ground = collider(HalfSpace{}, 9);
+  for (const Standing& top : standing_shapes()) {
+    for (const double tilt : {0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
+      for (const double gap : {-1e-3, 1e-3}) {
+        const Pose world{random.in_box(3), random.rotation()};
+        const double angle = random.uniform(0, 6);
+        const Quat tilted(Eigen::AngleAxisd(tilt, Vec3(std::cos(angle), std::sin(angle), 0)));
+        const Collider a = collider(top.shape, 4);
+        Pose pose = world * Pose{Vec3::Zero(), tilted * top.q};
+        const Vec3 up = world.q * Vec3::UnitZ();
+        pose.c += (gap - find_gap(a, pose, ground, world).value) * up;
+        Manifold m;
+        find_manifold(a, pose, ground, world, 0.025, m);
+        ASSERT_GE(m.count, 3) << shape_name(top.shape) << " tilt " << tilt;
+        EXPECT_NEAR(least_gap(m), gap, 1e-7);
+      }
+    }
+  }
+}
+
 TEST(Manifold, SettledPointsDoNotJumpWithTheLastBits) {
   Random random(7);
   const Box base{{3, 3, 1}};
@@ -260,9 +336,11 @@ TEST(Manifold, SettledPointsDoNotJumpWithTheLastBits) {
       const Quat q(Eigen::AngleAxisd(random.uniform(0, 1e-8), random.direction()));
       const Manifold m = manifold_of(base, {}, shape, {{0.1, 0.2, 1 - 1e-5}, q}, 0.02);
       ASSERT_EQ(m.count, before.count);
-      for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t k = 0; k < 4; ++k) {
         ASSERT_NEAR((m.points[k].point - before.points[k].point).norm(), 0, 1e-6)
             << shape_name(shape);
+        ASSERT_EQ(m.points[k].feature, before.points[k].feature) << shape_name(shape);
+      }
     }
   }
 }

@@ -16,14 +16,16 @@ double least_gap(const Manifold& m) {
   return least;
 }
 
-TEST(PairTable, HasNoHoleButTwoHalfSpaces) {
+TEST(PairTable, HasNoHoleButWhatNoForceMoves) {
   for (std::size_t a = 0; a < kShapeCount; ++a) {
     for (std::size_t b = 0; b < kShapeCount; ++b) {
       const char kernel = kPairTable[a][b];
       if (b < a) {
         EXPECT_EQ(kernel, ' ');
-      } else if (a == kHalfSpace) {
+      } else if (a >= kHalfSpace) {
         EXPECT_EQ(kernel, '-');
+      } else if (b == kMesh) {
+        EXPECT_EQ(kernel, 'M');
       } else {
         EXPECT_NE(std::string("FBGH").find(kernel), std::string::npos);
       }
@@ -120,6 +122,47 @@ TEST_P(EachPair, GapBringsItsOwnProof) {
   }
 }
 
+// b is moved along the normal until the gap is about as wanted.
+Gap moved_to(Placed& p, double wanted) {
+  for (int i = 0; i < 6; ++i) {
+    const Gap gap = find_gap(p.a, p.pose_a, p.b, p.pose_b);
+    if (std::abs(gap.value - wanted) < 0.5 * std::abs(wanted)) return gap;
+    p.pose_b.c -= (wanted - gap.value) * gap.normal;
+  }
+  return find_gap(p.a, p.pose_a, p.b, p.pose_b);
+}
+
+// Relative to the smaller radius; bench_gap_accuracy does the same with as many poses as wanted.
+constexpr double kApartAccuracy = 1e-11, kDepthAccuracy = 4e-9;
+
+TEST_P(EachPair, GapIsKnownFromNanometresToTwoSizes) {
+  const auto [kind_a, kind_b] = GetParam();
+  Random random(160 + static_cast<std::uint64_t>(10 * kind_a + kind_b));
+  int reached = 0;
+  for (const double size : {1.0, 1e-4, 1e4}) {
+    const int poses = size == 1 ? 2000 : 200;
+    for (int i = 0; i < poses; ++i) {
+      const Collider a = collider(random_shape(kind_a, random, size), 4),
+                     b = collider(random_shape(kind_b, random, size), 9);
+      const double small = std::min(a.bounding_radius, b.bounding_radius);
+      const double wanted = small * random.log_uniform(1e-9, 2);
+      Placed p{a, b, {random.in_box(size), random.rotation()}, {Vec3::Zero(), random.rotation()}};
+      p.pose_b.c = p.pose_a.c + 1.5 * size * random.direction();
+      const Gap gap = moved_to(p, wanted);
+      const double slab = separation(a.shape, p.pose_a, b.shape, p.pose_b, gap.normal);
+      const double accuracy = gap.value > 0 ? kApartAccuracy : kDepthAccuracy;
+      ASSERT_LE(gap.value - slab, accuracy * small) << "case " << i << " wanted " << wanted;
+      if (gap.value <= 0) continue;
+      ++reached;
+      const double rounding = 1e-14 * size;
+      ASSERT_NEAR((gap.point_a - gap.point_b).norm(), gap.value, rounding) << "case " << i;
+      ASSERT_LE(outside_by(a.shape, p.pose_a.inverse() * gap.point_a), rounding) << "case " << i;
+      ASSERT_LE(outside_by(b.shape, p.pose_b.inverse() * gap.point_b), rounding) << "case " << i;
+    }
+  }
+  EXPECT_GT(reached, 2300);
+}
+
 TEST_P(EachPair, NothingIsFoundBeyondTheMargin) {
   const auto [kind_a, kind_b] = GetParam();
   Random random(200 + static_cast<std::uint64_t>(10 * kind_a + kind_b));
@@ -147,6 +190,7 @@ TEST_P(EachPair, SwappingTheArgumentsGivesTheSameBits) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(ab.count); ++k) {
       ASSERT_EQ(ab.points[k].point, ba.points[k].point);
       ASSERT_EQ(ab.points[k].gap, ba.points[k].gap);
+      ASSERT_EQ(ab.points[k].feature, ba.points[k].feature);
     }
     const Gap one = find_gap(p.a, p.pose_a, p.b, p.pose_b),
               two = find_gap(p.b, p.pose_b, p.a, p.pose_a);

@@ -89,7 +89,6 @@ const std::vector<Malformed> kMalformed = {
     {"Profile", "bodies: []\nprofile: fast", "s.yaml:2:1: 'profile' is not supported yet"},
     {"StaticFriction", with("shape: {sphere: 1}, material: {static_friction: 1}"),
      "s.yaml:2:55: 'static_friction' is not supported yet"},
-    {"MeshShape", of("mesh: {file: a.obj}"), "s.yaml:2:23: 'mesh' is not supported yet"},
     {"ConvexFile", of("convex: {file: a.obj}"), "s.yaml:2:32: 'file' is not supported yet"},
 
     // Layer tables
@@ -305,7 +304,8 @@ const std::vector<Malformed> kMalformed = {
      "s.yaml:4:23: unknown key 'colide', did you mean 'collide'?"},
 
     // Kinematic bodies
-    {"KinematicWord", with("shape: {sphere: 1}, kinematic: 1"), "s.yaml:2:55: kinematic must be true or false, is '1'"},
+    {"KinematicWord", with("shape: {sphere: 1}, kinematic: 1"),
+     "s.yaml:2:55: kinematic must be true or false, is '1'"},
     {"KinematicAndStatic", with("static: true, kinematic: true"),
      "s.yaml:2:49: a body must be either static or kinematic"},
     {"KinematicDrag", with("kinematic: true, drag: {linear: 1}"),
@@ -335,10 +335,10 @@ const std::vector<Malformed> kMalformed = {
      "s.yaml:2:32: capsule needs the key 'length'"},
     {"TwoKinds", of("sphere: 1, box: [1, 1, 1]"),
      "s.yaml:2:22: a shape must have exactly one of sphere, box, capsule, cylinder, cone, "
-     "ellipsoid, convex, half_space"},
+     "ellipsoid, convex, half_space, mesh"},
     {"NoKind", of("position: [0, 0, 0]"),
      "s.yaml:2:22: a shape must have exactly one of sphere, box, capsule, cylinder, cone, "
-     "ellipsoid, convex, half_space"},
+     "ellipsoid, convex, half_space, mesh"},
     {"KindMisspelt", of("spheer: 1"), "s.yaml:2:23: unknown key 'spheer', did you mean 'sphere'?"},
     {"ShapeAndShapes", with("shape: {sphere: 1}, shapes: [{sphere: 1}]"),
      "s.yaml:2:44: a body must have either shape or shapes"},
