@@ -245,7 +245,8 @@ struct Start {
 
 Penetration across_flat(const ConvexPair& pair, const GjkResult& ended, const Vec3& flat_normal) {
   const Vec3 normal = flat_normal.dot(pair.c) > 0 ? Vec3(-flat_normal) : flat_normal;
-  return {0, 0, normal, ended.on_a, ended.on_b};
+  const double depth = -difference_support(pair, -normal).w.dot(normal);
+  return {depth, std::min(depth, 0.0), normal, ended.on_a, ended.on_b};
 }
 
 Penetration along_support(const ConvexPair& pair, const Vec3& outward) {
@@ -286,7 +287,8 @@ bool improve(const ConvexPair& pair, const Blend& blend, Penetration& best) {
 
 Penetration penetration(const ConvexPair& pair, const GjkResult& ended, double accuracy) {
   Start start{ended.simplex, static_cast<std::size_t>(ended.size), Vec3::UnitZ()};
-  if (!start.fill(pair, kEpaFlat * pair.small)) return across_flat(pair, ended, start.flat_normal);
+  if (!start.fill(pair, pair.at_least_rounding(kEpaFlat * pair.small)))
+    return across_flat(pair, ended, start.flat_normal);
 
   Polytope polytope(pair.rounding());
   Penetration best = along_support(

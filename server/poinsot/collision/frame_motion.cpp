@@ -123,7 +123,7 @@ void FrameMotion::set_bounds(double t_end) {
     if (!state_.is_awake(i) && !world.is_kinematic(i)) continue;
     if (state_.arm[k] == 0 && state_.colliders_of(i).empty()) continue;
     if (bounded_[k] == state_.stamp[k] && state_.bounds_until[k] >= t_end) continue;
-    bool inside = true;  // boxes that were made with room may do
+    bool inside = bounded_[k] != state_.stamp[k];  // boxes that were made with room may do
     for (const Collider& collider : state_.colliders_of(i)) {
       const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
       inside = inside && state_.bound[c].contains(reach_box(state_, collider, world.time, t_end));

@@ -166,6 +166,26 @@ DifferencePoint difference_support(const ConvexPair& pair, const Vec3& d) {
   return {on_a - pair.support_b(-d), on_a};
 }
 
+namespace {
+
+// True if Newton's method proves the cores apart, with bounds that meet.
+bool improve(const ConvexPair& pair, const Vec3& normal, const Simplex& s, double gap,
+             GjkResult& result) {
+  result.near_stationary = polish(pair, normal, s.blend(), gap);
+  const Polished& p = result.near_stationary;
+  if (!p.settled || p.lower <= 0) return false;
+  result.separated = true;
+  result.distance = p.upper;
+  result.lower = p.lower;
+  result.normal = p.normal;
+  result.on_a = p.on_a;
+  result.on_b = p.on_b;
+  result.size = 0;
+  return true;
+}
+
+}  // namespace
+
 GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
   GjkResult result;
   Simplex s;
@@ -186,19 +206,8 @@ GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
     if (s.size > 0 && (length - result.lower <= gap || result.lower > enough || s.holds(next.w)))
       break;
     if (s.size > 0 && length - result.lower <= polish_at) {
-      result.near_stationary = polish(pair, v / length, s.blend(), gap);
-      const Polished& p = result.near_stationary;
-      if (p.settled && p.lower > 0) {
-        result.separated = true;
-        result.distance = p.upper;
-        result.lower = p.lower;
-        result.normal = p.normal;
-        result.on_a = p.on_a;
-        result.on_b = p.on_b;
-        result.size = 0;
-        return result;
-      }
-      polish_at = p.settled ? 0 : 0.1 * (length - result.lower);
+      if (improve(pair, v / length, s, gap, result)) return result;
+      polish_at = result.near_stationary.settled ? 0 : 0.1 * (length - result.lower);
     }
     const Simplex before = s;
     s.p[s.size++] = next;
@@ -220,6 +229,9 @@ GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
     touching = inside || length <= touch;
     if (touching) break;
   }
+  if (!touching && length - result.lower > gap && result.lower <= enough && length > 0 &&
+      improve(pair, v / length, s, gap, result))
+    return result;
   // Not proven apart, or so close that needles of simplices cannot measure it: the penetration
   // search, whose depth has a sign, knows better.
   const double unsure = length - result.lower;

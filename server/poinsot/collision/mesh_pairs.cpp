@@ -104,14 +104,15 @@ class MeshQuery {
     felt.triangle = t;
     const Vec3 n = in_a(surface_.normal(t));
     const double above = beyond(n), behind = beyond(-n);  // of its plane; both negative: through
-    if (std::max(above, behind) > enough) return false;
-    const GjkResult near = gjk(pair_, enough + a_.core_radius);
+    const double apart = std::max(enough, 0.0);           // depths are decided below
+    if (std::max(above, behind) > apart) return false;
+    const GjkResult near = gjk(pair_, apart + a_.core_radius);
     if (near.separated)
       felt.witness = {near.normal, near.on_a, near.on_b, near.distance - a_.core_radius};
     else
       take_depth(near, felt.witness);
     felt.lower = near.separated ? near.lower - a_.core_radius : felt.witness.gap;
-    if (felt.lower > enough) return false;
+    if (felt.lower > apart) return false;
     if (felt.witness.gap > 0 && near.separated) {
       felt.side = felt.witness.normal.dot(n) >= 0 ? 1 : -1;
       felt.by_face = !may_push(felt.witness, t);
@@ -235,6 +236,7 @@ class MeshQuery {
       candidates_.push_back({u.dot(points_[i].point), v.dot(points_[i].point), points_[i].gap});
       members_.push_back(i);
     }
+    put_outermost_first();
     const Choice choice = choose_points(candidates_, kSameGap * small_);
     Manifold manifold;
     manifold.normal = cluster.normal;
@@ -244,6 +246,23 @@ class MeshQuery {
       manifold.points[k] = {p.point, p.gap};
     }
     return manifold;
+  }
+
+  // Of points equally deep the first is chosen: a corner of the patch, not a corner of a triangle
+  // somewhere in its middle. Along a direction fixed to the body that is no edge's of a box.
+  void put_outermost_first() {
+    const Vec3 direction(1, 0.618, 0.382);
+    double least = kInfinite, farthest = -kInfinite;
+    for (const Candidate& c : candidates_) least = std::min(least, c.gap);
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      const double along = direction.dot(points_[members_[i]].point);
+      if (candidates_[i].gap > least + kSameGap * small_ || along <= farthest) continue;
+      farthest = along;
+      best = i;
+    }
+    std::swap(candidates_[0], candidates_[best]);
+    std::swap(members_[0], members_[best]);
   }
 
   void to_world(Manifold& manifold) const {

@@ -1,6 +1,7 @@
 #include "poinsot/collision/proximity.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -20,6 +21,11 @@ constexpr double kManifoldAccuracy = 1e-4;
 
 char kernel(const Collider& a, const Collider& b) {
   return kPairTable[a.shape.index()][b.shape.index()];
+}
+
+bool can_be_measured(const Pose& pose_a, const Pose& pose_b) {
+  return std::isfinite((pose_a.c - pose_b.c).squaredNorm() + pose_a.q.squaredNorm() +
+                       pose_b.q.squaredNorm());
 }
 
 // The order in which a pair is computed, whichever way it is asked for.
@@ -115,6 +121,8 @@ void deepest_mesh_manifold(const Collider& a, const Pose& pose_a, const Collider
 
 void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                    double margin, Manifold& manifold) {
+  manifold.clear();
+  if (!can_be_measured(pose_a, pose_b)) return;
   if (is_swapped(a, b)) {
     find_manifold(b, pose_b, a, pose_a, margin, manifold);
     manifold.normal = -manifold.normal;
@@ -158,6 +166,10 @@ void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, co
 
 Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
              GapHint* hint) {
+  if (!can_be_measured(pose_a, pose_b)) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    return {kUnknown, -kUnknown, Vec3::UnitZ(), Vec3::Zero(), Vec3::Zero()};
+  }
   if (is_swapped(a, b)) {
     if (hint) hint->axis = -hint->axis;
     Gap gap = find_gap(b, pose_b, a, pose_a, hint);

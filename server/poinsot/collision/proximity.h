@@ -1,8 +1,9 @@
 // The wall: what the collision layer asks about two shapes. No FCL type crosses it.
 //
-// Poses that come in are finite and unit (the simulation layer sees to that). Supported pairs are
-// in pair_table.h: all but those of half-spaces and meshes among themselves, whose bodies no force
-// moves, so that they never meet.
+// Poses that come in are finite and unit (the simulation layer sees to that). Should one not be, or
+// the shapes be farther apart than a distance can be squared, nothing is known: no points, and a
+// gap between −∞ and +∞. Supported pairs are in pair_table.h: all but those of half-spaces and
+// meshes among themselves, whose bodies no force moves, so that they never meet.
 
 #pragma once
 

@@ -68,7 +68,6 @@ void sphere_contact_fcl(const Collider& sphere, const Pose& pose, const Collider
   // A sphere grown by the margin touches whatever is nearer than the margin: FCL reports only what
   // penetrates. Positions relative to the other shape, so that far from the origin nothing is lost.
   const Pose relative = pose_other.inverse() * pose;
-  if (!relative.c.allFinite()) return;  // FCL would abort the process
   if (!touch(solver, fcl::Sphered(radius + margin), to_fcl(relative), other.shape,
              fcl::Transform3d::Identity()))
     return;

@@ -8,7 +8,7 @@ namespace {
 
 // A box is made to last until its body has moved by this many of its arms, and at most this many
 // times the time asked for.
-constexpr double kLastingArms = 1, kLastingTimes = 32;
+constexpr double kLastingArms = 2, kLastingTimes = 32;
 constexpr double kRoom = 1e-12;  // [-] for the rounding of the box itself
 
 struct Interval {
@@ -32,7 +32,7 @@ Interval range(double v, double a, double h) {
 
 }  // namespace
 
-Aabb reach_box(const CollisionState& state, const Collider& collider, double from, double to) {
+Aabb reach_box(CollisionState& state, const Collider& collider, double from, double to) {
   const World& world = state.world();
   const Eigen::Index i = collider.body;
   const Pose pose{position(world.y, i), orientation(world.y, i)};
@@ -55,9 +55,9 @@ Aabb reach_box(const CollisionState& state, const Collider& collider, double fro
       low[axis] = r.low;
       high[axis] = r.high;
     }
-    omega = rotation_bound(world.principal_axes[static_cast<std::size_t>(i)], rotation(world, i),
-                           angular_momentum(world.y, i))
-                .omega;
+    // Beginning a flight is dear: only that of a body that is in one is asked.
+    omega = state.simulation.is_in_flight(i) ? state.simulation.turning(i, from).omega
+                                             : driven_bound(world, i, {}, h).speed.omega;
   } else {
     const SpeedBound speed = driven_bound(world, i, {}, h).speed;
     low = Vec3::Constant(-h * speed.v);

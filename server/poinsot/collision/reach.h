@@ -13,7 +13,7 @@ namespace poinsot {
 
 // All that a collider of a body can reach from `from`, at which the body's state is, to `to`, on
 // its own: without impacts or contacts.
-Aabb reach_box(const CollisionState& state, const Collider& collider, double from, double to);
+Aabb reach_box(CollisionState& state, const Collider& collider, double from, double to);
 
 // Speed of the fastest point of a body now, and what gravity and pushes add until `duration` has
 // passed [m/s].

@@ -175,6 +175,16 @@ void SimulationLayer::begin_flight(Eigen::Index i, double from) {
   last_good_.col(i) = world_.y.col(i);
 }
 
+const RotationBound& SimulationLayer::turning(Eigen::Index i, double from) {
+  const auto k = static_cast<std::size_t>(i);
+  begin_flight(i, from);
+  if (turning_known_[k] == 0)
+    turning_[k] = rotation_bound(world_.principal_axes[k], rotation(world_, i),
+                                 angular_momentum(world_.y, i));
+  turning_known_[k] = 1;
+  return turning_[k];
+}
+
 // The flight goes on as long as nobody else has touched the body's state.
 void SimulationLayer::fly(Eigen::Index i, double from, double to, Tally& tally) {
   const auto k = static_cast<std::size_t>(i);
@@ -245,12 +255,8 @@ Course SimulationLayer::course(Eigen::Index i, double from, double to, bool in_c
   if (!world_.moves(i)) return Course::still(pose, from, to);
   const bool pushed = in_contact && !is_zero(contact_wrenches_[k]);
   if (flies_free() && driven_[k] == 0 && !pushed) {
-    begin_flight(i, from);
-    if (turning_known_[k] == 0)
-      turning_[k] = rotation_bound(world_.principal_axes[k], rotation(world_, i),
-                                   angular_momentum(world_.y, i));
-    turning_known_[k] = 1;
-    return Course::flight(world_, i, flights_[k], turning_[k], from, to);
+    const RotationBound& bound = turning(i, from);
+    return Course::flight(world_, i, flights_[k], bound, from, to);
   }
   const DrivenBound bound = driven_bound(
       world_, i,

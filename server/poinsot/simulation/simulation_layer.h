@@ -75,8 +75,9 @@ class SimulationLayer {
   Course::Column preview(Eigen::Index i, const Course::Preview& course, double t);
   // Whether the body flies, and has not been touched since its flight was last evaluated or begun.
   bool is_in_flight(Eigen::Index i) const;
-  // Begins a flight, at time `from`, unless the body is in one.
+  // Begins a flight, at time `from`, unless the body is in one; and how that flight may turn.
   void begin_flight(Eigen::Index i, double from);
+  const RotationBound& turning(Eigen::Index i, double from);
   // Something but gravity acts on the body in this frame, contacts aside.
   bool is_driven(Eigen::Index i) const { return driven_[static_cast<std::size_t>(i)] != 0; }
   bool flies_free() const { return integration_.kind() == IntegratorKind::exact; }

@@ -171,21 +171,21 @@ TEST_F(MeshOfAScene, FaultsHaveTheirPlace) {
   write("broken.obj", kSquare + "f 1 2 9\n");
   const std::string file = (folder_ / "s.yaml").string();
   EXPECT_EQ(scene("density: 1, shape: {mesh: {file: square.obj}}"),
-            file + ":2:40: only a static or kinematic body may have a mesh");
+            file + ":2:41: only a static or kinematic body may have a mesh");
   EXPECT_EQ(
       scene("static: true, shape: {mesh: {file: broken.obj}}"),
-      file + ":2:48: " + (folder_ / "broken.obj").string() + ":5: a face names vertex 9 of 4");
+      file + ":2:50: " + (folder_ / "broken.obj").string() + ":5: a face names vertex 9 of 4");
   EXPECT_EQ(scene("static: true, shape: {mesh: {file: none.obj}}"),
-            file + ":2:48: " + (folder_ / "none.obj").string() +
+            file + ":2:50: " + (folder_ / "none.obj").string() +
                 ": cannot be read: No such file or directory");
   EXPECT_EQ(scene("static: true, shape: {mesh: {file: s.yaml}}"),
-            file + ":2:48: " + file + ": a mesh file must end in .obj or .stl");
+            file + ":2:50: " + file + ": a mesh file must end in .obj or .stl");
   EXPECT_EQ(scene("static: true, shape: {mesh: {flie: a.obj}}"),
-            file + ":2:42: unknown key 'flie', did you mean 'file'?");
-  EXPECT_EQ(scene("static: true, shape: {mesh: {}}"), file + ":2:41: mesh needs the key 'file'");
+            file + ":2:44: unknown key 'flie', did you mean 'file'?");
+  EXPECT_EQ(scene("static: true, shape: {mesh: {}}"), file + ":2:43: mesh needs the key 'file'");
   std::filesystem::create_directory(folder_ / "folder.obj");
   EXPECT_EQ(scene("static: true, shape: {mesh: {file: folder.obj}}"),
-            file + ":2:48: " + (folder_ / "folder.obj").string() +
+            file + ":2:50: " + (folder_ / "folder.obj").string() +
                 ": cannot be read: it is no regular file");
 }
 

@@ -335,10 +335,10 @@ const std::vector<Malformed> kMalformed = {
      "s.yaml:2:32: capsule needs the key 'length'"},
     {"TwoKinds", of("sphere: 1, box: [1, 1, 1]"),
      "s.yaml:2:22: a shape must have exactly one of sphere, box, capsule, cylinder, cone, "
-     "ellipsoid, convex, half_space"},
+     "ellipsoid, convex, half_space, mesh"},
     {"NoKind", of("position: [0, 0, 0]"),
      "s.yaml:2:22: a shape must have exactly one of sphere, box, capsule, cylinder, cone, "
-     "ellipsoid, convex, half_space"},
+     "ellipsoid, convex, half_space, mesh"},
     {"KindMisspelt", of("spheer: 1"), "s.yaml:2:23: unknown key 'spheer', did you mean 'sphere'?"},
     {"ShapeAndShapes", with("shape: {sphere: 1}, shapes: [{sphere: 1}]"),
      "s.yaml:2:44: a body must have either shape or shapes"},

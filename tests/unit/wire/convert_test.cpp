@@ -31,7 +31,7 @@ TEST(Convert, ABodyKeepsEveryField) {
   expect_round_trip<msg::v2::BodyDescription>(sample::body_info(4, 9));
 }
 TEST(Convert, AReportKeepsEveryField) {
-  expect_round_trip<msg::v2::RunStatus>(sample::report());
+  expect_round_trip<msg::v3::RunStatus>(sample::report());
 }
 TEST(Convert, AWrenchKeepsEveryField) {
   expect_round_trip<msg::v1::BodyWrench>(sample::wrench());
@@ -41,6 +41,24 @@ TEST(Convert, AControlKeepsEveryField) {
 }
 TEST(Convert, AReplyKeepsEveryField) {
   expect_round_trip<msg::v1::CommandReply>(sample::reply());
+}
+
+TEST(Convert, AnImpactKeepsEveryField) {
+  expect_round_trip<msg::v1::ImpactEvent>(sample::impact());
+}
+TEST(Convert, AnImpactThatCannotBeIsRefused) {
+  const auto refused = [](const std::function<void(ImpactNotice&)>& spoil) {
+    ImpactNotice impact = sample::impact(), back;
+    spoil(impact);
+    msg::v1::ImpactEvent wire;
+    EXPECT_EQ(to_message(impact, wire), "");
+    return from_message(wire, back);
+  };
+  EXPECT_EQ(refused([](ImpactNotice& i) { i.time = kNaN; }), "time is not finite");
+  EXPECT_EQ(refused([](ImpactNotice& i) { i.b.id = {}; }), "body has no generation");
+  EXPECT_EQ(refused([](ImpactNotice& i) { i.normal *= 2; }), "normal is not of length 1");
+  EXPECT_EQ(refused([](ImpactNotice& i) { i.a.linear_after.y() = kInfinity; }),
+            "linear_after.y is not finite");
 }
 
 TEST(Convert, AFrameIntoAUsedSampleLeavesNothingOfTheOldOne) {
@@ -56,7 +74,7 @@ TEST(Convert, AFrameIntoAUsedSampleLeavesNothingOfTheOldOne) {
 TEST(Convert, AReportIntoAUsedSampleLeavesNothingOfTheOldOne) {
   RunReport longer = sample::report();
   longer.body_methods.resize(100, Method::rk4);
-  msg::v2::RunStatus wire;
+  msg::v3::RunStatus wire;
   RunReport back;
   for (const RunReport& report : {longer, sample::report()}) {
     ASSERT_EQ(to_message(report, wire), "");
@@ -69,10 +87,10 @@ TEST(Convert, EveryMethodKeepsItsNumber) {
   RunReport report = sample::report();
   report.body_methods.clear();
   for (const auto& row : kMethodNames) report.body_methods.push_back(row.value);
-  expect_round_trip<msg::v2::RunStatus>(report);
-  EXPECT_EQ(msg::v2::METHOD_FLIGHT, static_cast<std::uint8_t>(Method::flight));
-  EXPECT_EQ(msg::v2::METHOD_ROSENBROCK, static_cast<std::uint8_t>(Method::rosenbrock));
-  EXPECT_EQ(msg::v2::METHOD_EXPLICIT_EULER, static_cast<std::uint8_t>(Method::explicit_euler));
+  expect_round_trip<msg::v3::RunStatus>(report);
+  EXPECT_EQ(msg::v3::METHOD_FLIGHT, static_cast<std::uint8_t>(Method::flight));
+  EXPECT_EQ(msg::v3::METHOD_ROSENBROCK, static_cast<std::uint8_t>(Method::rosenbrock));
+  EXPECT_EQ(msg::v3::METHOD_EXPLICIT_EULER, static_cast<std::uint8_t>(Method::explicit_euler));
 }
 
 TEST(Convert, EveryKindOfShapeKeepsItsParameters) {
@@ -182,7 +200,7 @@ TEST(Convert, WhatDoesNotFitIsNotSent) {
   EXPECT_NE(to_message(info, body), "");
   RunReport report = sample::report();
   report.body_methods.resize(kMaxBodies + 1);
-  msg::v2::RunStatus status;
+  msg::v3::RunStatus status;
   EXPECT_NE(to_message(report, status), "");
   WrenchCommand wrench = sample::wrench();
   wrench.body_name = "\xFF";
@@ -291,10 +309,10 @@ TEST(Convert, MalformedPosesAreRefusedWithTheReason) {
 }
 
 TEST(Convert, MalformedReportsAreRefusedWithTheReason) {
-  using Wire = msg::v2::RunStatus;
+  using Wire = msg::v3::RunStatus;
   expect_refusals<RunReport, Wire>(
       sample::report(),
-      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v2::RunStateKind>(4)); }},
+      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v3::RunStateKind>(4)); }},
        {"flags are unknown", [](Wire& w) { w.flags(16); }},
        {"position_error is not finite", [](Wire& w) { w.position_error(kNaN); }},
        {"orientation_error is not finite", [](Wire& w) { w.orientation_error(kInfinity); }},
