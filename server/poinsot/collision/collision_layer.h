@@ -28,9 +28,9 @@ struct CollisionReport {
   std::uint32_t restarts = 0;  // times that islands were gone through again, merged
   std::uint32_t searches = 0;  // for impacts
   std::uint64_t search_poses = 0, search_gaps = 0;  // evaluations that they took
-  std::uint32_t impacts = 0;   // located
-  bool crowded = false;        // more impacts in an island than it pays to locate
-  std::uint32_t asleep = 0;    // bodies
+  std::uint32_t impacts = 0;                        // located
+  bool crowded = false;      // more impacts in an island than it pays to locate
+  std::uint32_t asleep = 0;  // bodies
 };
 
 struct EnergyBalance {

@@ -37,7 +37,8 @@ CollisionState::CollisionState(const Scene& scene)
     ++first_collider[k + 1];
     arm[k] = std::max(arm[k], collider.in_body.c.norm() + collider.bounding_radius);
   }
-  for (std::size_t k = 1; k < first_collider.size(); ++k) first_collider[k] += first_collider[k - 1];
+  for (std::size_t k = 1; k < first_collider.size(); ++k)
+    first_collider[k] += first_collider[k - 1];
 }
 
 std::span<const Collider> CollisionState::colliders_of(Eigen::Index i) const {
@@ -50,9 +51,9 @@ const Course& CollisionState::course(Eigen::Index i, double to, bool in_contact,
   const auto k = static_cast<std::size_t>(i);
   Course& course = courses[k];
   if (course_stamp[k] == stamp[k] && course.end() >= to) return course;
-  course = asleep[k] != 0
-               ? Course::still({position(world().y, i), orientation(world().y, i)}, body_time[k], to)
-               : simulation.course(i, body_time[k], to, in_contact, worker);
+  course = asleep[k] != 0 ? Course::still({position(world().y, i), orientation(world().y, i)},
+                                          body_time[k], to)
+                          : simulation.course(i, body_time[k], to, in_contact, worker);
   course_stamp[k] = stamp[k];
   return course;
 }

@@ -35,15 +35,15 @@ struct CollisionState {
 
   CollisionDef def;
   SimulationLayer simulation;
-  std::vector<Material> materials;   // per body
-  std::vector<Collider> colliders;   // in body order
-  std::vector<int> first_collider;   // per body, and the end
-  std::vector<double> arm;           // [m] per body: no point of its shapes is farther from c
+  std::vector<Material> materials;  // per body
+  std::vector<Collider> colliders;  // in body order
+  std::vector<int> first_collider;  // per body, and the end
+  std::vector<double> arm;          // [m] per body: no point of its shapes is farther from c
   PairStore pairs;
 
   // Per body.
-  std::vector<std::uint32_t> stamp;         // of its course
-  std::vector<double> body_time;            // [s] its state's
+  std::vector<std::uint32_t> stamp;  // of its course
+  std::vector<double> body_time;     // [s] its state's
   std::vector<Course> courses;
   std::vector<std::uint32_t> course_stamp;  // that courses[i] is of; 0: none yet
   std::vector<double> bounds_until;         // [s] that its boxes hold; for ever if it is at rest

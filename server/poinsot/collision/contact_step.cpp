@@ -88,9 +88,9 @@ int ContactStep::local(const CollisionState& state, Eigen::Index column) {
     const SpeedBound bound = driven_bound(world, column, {}, h_).speed;
     travel = h_ * (bound.v + state.arm[static_cast<std::size_t>(column)] * bound.omega);
   } else if (world.is_kinematic(column)) {
-    travel = h_ * (linear_velocity(world, column).norm() +
-                   state.arm[static_cast<std::size_t>(column)] *
-                       angular_velocity(world, column).norm());
+    travel =
+        h_ * (linear_velocity(world, column).norm() +
+              state.arm[static_cast<std::size_t>(column)] * angular_velocity(world, column).norm());
   }
   travel_.push_back(travel);
   room_.push_back(std::numeric_limits<double>::infinity());
@@ -124,6 +124,7 @@ void ContactStep::add(CollisionState& state, int index) {
   for (const std::size_t k : {a, b})
     room_[k] = std::min(room_[k], 0.5 * def_.contact_margin * record.size);
   PairContact& contact = state.pairs.contact(record);
+  contact.digest = 0;
   if (is_near(state, index)) {
     measure(state, record, margin);
   } else {
@@ -161,17 +162,18 @@ void ContactStep::measure(CollisionState& state, PairRecord& record, double marg
   const Collider& shape_b = state.colliders[static_cast<std::size_t>(record.pair.b)];
   const Pose pose_a = collider_pose(shape_a, {position(world.y, a), orientation(world.y, a)});
   const Pose pose_b = collider_pose(shape_b, {position(world.y, b), orientation(world.y, b)});
-  const Pose relative{pose_a.q.conjugate() * (pose_b.c - pose_a.c), pose_a.q.conjugate() * pose_b.q};
+  const Pose relative{pose_a.q.conjugate() * (pose_b.c - pose_a.c),
+                      pose_a.q.conjugate() * pose_b.q};
   PairContact& contact = state.pairs.contact(record);
   std::swap(contact.points, contact.last);
   contact.points.clear();
 
   const Eigen::Index mover = world.moves(a) ? a : b;
   const Vec3 center = position(world.y, mover);
-  const bool same = contact.margin >= margin && contact.margin <= 2 * margin &&
-                    shift(contact.measured, relative,
-                          std::min(shape_a.bounding_radius, shape_b.bounding_radius)) <
-                        kSamePose * record.size;
+  const bool same =
+      contact.margin >= margin && contact.margin <= 2 * margin &&
+      shift(contact.measured, relative,
+            std::min(shape_a.bounding_radius, shape_b.bounding_radius)) < kSamePose * record.size;
   if (same) {
     contact.points = contact.last;
     for (PairPoint& p : contact.points) {
@@ -184,8 +186,8 @@ void ContactStep::measure(CollisionState& state, PairRecord& record, double marg
     const double scale = contact.last_h > 0 ? h_ / contact.last_h : 0;
     for (PairPoint& p : contact.points) {
       p.normal_impulse *= scale;
-      p.friction_impulse = scale * (p.friction_impulse -
-                                    p.normal.dot(p.friction_impulse) * p.normal);
+      p.friction_impulse =
+          scale * (p.friction_impulse - p.normal.dot(p.friction_impulse) * p.normal);
     }
     contact.last_h = h_;
     return;
@@ -237,8 +239,7 @@ void ContactStep::recall(PairContact& contact, double size) {
 }
 
 PairPoint& ContactStep::point(CollisionState& state, std::size_t i) {
-  PairRecord& record =
-      state.pairs[records_[static_cast<std::size_t>(points_[i].record)]];
+  PairRecord& record = state.pairs[records_[static_cast<std::size_t>(points_[i].record)]];
   return state.pairs.contact(record).points[static_cast<std::size_t>(points_[i].index)];
 }
 
@@ -305,9 +306,9 @@ void ContactStep::push_out(CollisionState& state, Books& books) {
     const double spin_energy = rotational_energy(world, i);
     position(world.y, i) += h_ * bodies_[k].v;
     turn(world, i, h_ * bodies_[k].omega);
-    const double added = rotational_energy(world, i) - spin_energy -
-                         world.mass[static_cast<std::size_t>(i)] * h_ *
-                             world.gravity.dot(bodies_[k].v);
+    const double added =
+        rotational_energy(world, i) - spin_energy -
+        world.mass[static_cast<std::size_t>(i)] * h_ * world.gravity.dot(bodies_[k].v);
     if (std::isfinite(added)) books.push_out_energy += added;
   }
 }
@@ -363,8 +364,7 @@ void ContactStep::foresee_impacts(CollisionState& state, Books& books) {
       const Eigen::Index i = columns_[body];
       if (!world.moves(i)) continue;
       momentum(world.y, i) += sign * impulse;
-      angular_momentum(world.y, i) +=
-          sign * (contact.point - before_[body].c).cross(impulse);
+      angular_momentum(world.y, i) += sign * (contact.point - before_[body].c).cross(impulse);
     }
   }
 }

@@ -40,8 +40,8 @@ class ContactStep {
   // Moves bodies, changes momenta and fills the contact wrenches of the simulation layer.
   Outcome solve(CollisionState& state, Books& books);
 
-  // Part of h that the bodies may move on before one could pass through another: 1 if nothing became
-  // faster than was foreseen or turns fast.
+  // Part of h that the bodies may move on before one could pass through another: 1 if nothing
+  // became faster than was foreseen or turns fast.
   double sound_part(const CollisionState& state) const;
 
   // The bodies that contacts act on, systems as a whole, ascending.

@@ -63,6 +63,11 @@ void FrameMotion::place_resting(Eigen::Index i) {
 void FrameMotion::advance_to(double t_end, CollisionReport& report,
                              std::vector<ImpactEvent>& impacts, CollisionTimes& times) {
   impacts.clear();
+  report.islands = report.restarts = report.searches = report.impacts = 0;
+  report.search_poses = report.search_gaps = 0;
+  report.contacts = 0;
+  report.max_penetration = 0;
+  report.crowded = false;
   if (rests_ && !touched_ && t_end >= state_.world().time) {
     state_.simulation.commit(t_end, {});
     return;
@@ -70,7 +75,6 @@ void FrameMotion::advance_to(double t_end, CollisionReport& report,
   state_.simulation.begin(t_end);
   Tally tally;
   SearchWork work;
-  report.restarts = 0;
   {
     const Stopwatch::WallLap lap(times.collision.wall_s);
     if (touched_) sleep_.wake_changed(state_);
@@ -134,8 +138,7 @@ void FrameMotion::set_bounds(double t_end) {
     } else {
       set_bound(i, worthwhile(state_, i, world.time, t_end), 0);
     }
-    if (world.is_kinematic(i))
-      state_.course(i, kForEver, false, motions_.front().worker());
+    if (world.is_kinematic(i)) state_.course(i, kForEver, false, motions_.front().worker());
   }
 }
 
@@ -181,14 +184,13 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
     again = false;
     for (PairRecord& record : state_.pairs.records()) {
       const bool awake_a = state_.is_awake(record.a), awake_b = state_.is_awake(record.b);
-      const bool carried = state_.world().is_kinematic(record.a) ||
-                           state_.world().is_kinematic(record.b);
+      const bool carried =
+          state_.world().is_kinematic(record.a) || state_.world().is_kinematic(record.b);
       if (!awake_a && !awake_b && !carried) continue;
       bool hot = record.standing || !searches;
       if (!hot) {
-        const double lasting =
-            std::min(state_.bounds_until[static_cast<std::size_t>(record.a)],
-                     state_.bounds_until[static_cast<std::size_t>(record.b)]);
+        const double lasting = std::min(state_.bounds_until[static_cast<std::size_t>(record.a)],
+                                        state_.bounds_until[static_cast<std::size_t>(record.b)]);
         motion.look_ahead(state_, record, state_.world().time, t_end, lasting, work);
         hot = record.meeting != Meeting::none && record.safe_until <= t_end;
       }
@@ -208,8 +210,7 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
     const auto a = static_cast<std::size_t>(record.a), b = static_cast<std::size_t>(record.b);
     if (excited_[a] == 0 && excited_[b] == 0) continue;
     const double h = t_end - state_.world().time;
-    const double speed =
-        fastest_point(state_, record.a, h) + fastest_point(state_, record.b, h);
+    const double speed = fastest_point(state_, record.a, h) + fastest_point(state_, record.b, h);
     for (const std::size_t k : {a, b})
       if (excited_[k] != 0) thrown_[k] = std::max(thrown_[k], speed);
   }
@@ -235,7 +236,8 @@ void FrameMotion::excite(Eigen::Index i, double t_end, double speed) {
   double size = kForEver;
   for (const Collider& collider : state_.colliders_of(i)) {
     const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
-    inside = inside && state_.bound[c].contains(reach_box(state_, collider, now, t_end).grown(more));
+    inside =
+        inside && state_.bound[c].contains(reach_box(state_, collider, now, t_end).grown(more));
     size = std::min(size, collider.size);
   }
   excited_[static_cast<std::size_t>(i)] = 1;
@@ -249,8 +251,7 @@ void FrameMotion::run_islands(double t_end, CollisionReport& report, CollisionTi
     team_.run(islands.size(), [&](std::size_t k, int thread) {
       Island& island = islands[k];
       if (island.done) return;
-      motions_[static_cast<std::size_t>(thread)].advance(state_, island, t_end,
-                                                         islands_.island_of);
+      motions_[static_cast<std::size_t>(thread)].advance(state_, island, t_end, islands_.island_of);
       island.done = island.strays.empty();
     });
     if (std::all_of(islands.begin(), islands.end(), [](const Island& i) { return i.done; })) break;
@@ -309,8 +310,7 @@ bool FrameMotion::touches_now(const PairRecord& record) const {
   const World& world = state_.world();
   const auto pose = [&](int collider) {
     const Collider& shape = state_.colliders[static_cast<std::size_t>(collider)];
-    return collider_pose(shape,
-                         {position(world.y, shape.body), orientation(world.y, shape.body)});
+    return collider_pose(shape, {position(world.y, shape.body), orientation(world.y, shape.body)});
   };
   const Collider& a = state_.colliders[static_cast<std::size_t>(record.pair.a)];
   const Collider& b = state_.colliders[static_cast<std::size_t>(record.pair.b)];
@@ -333,8 +333,8 @@ void FrameMotion::fly_the_rest(double t_end, Tally& tally) {
   const double from = world.time;
   const auto fly = [&](std::size_t part, int thread) {
     const std::size_t first = part * kFlownTogether;
-    const std::span<const Eigen::Index> bodies(
-        rest_.data() + first, std::min(kFlownTogether, rest_.size() - first));
+    const std::span<const Eigen::Index> bodies(rest_.data() + first,
+                                               std::min(kFlownTogether, rest_.size() - first));
     state_.simulation.advance(bodies, from, t_end, false,
                               motions_[static_cast<std::size_t>(thread)].worker(),
                               rest_tallies_[part]);
@@ -350,10 +350,6 @@ void FrameMotion::fly_the_rest(double t_end, Tally& tally) {
 void FrameMotion::close(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
                         const Tally& tally) {
   Tally all = tally;
-  report.contacts = 0;
-  report.max_penetration = 0;
-  report.impacts = 0;
-  report.crowded = false;
   report.islands = static_cast<std::uint32_t>(islands_.all().size());
   for (Island& island : islands_.all()) {
     const Island::Result& result = island.result;

@@ -126,14 +126,12 @@ double ImpactResponse::restitution(CollisionState& state, const PairRecord& reco
     return state.course_stamp[k] == state.stamp[k] ? state.courses[k].acceleration()
                                                    : state.world().gravity;
   };
-  const double pressing =
-      -point.normal.dot(Vec3(acceleration(record.a) - acceleration(record.b)));
+  const double pressing = -point.normal.dot(Vec3(acceleration(record.a) - acceleration(record.b)));
   return 2 * e * speed < pressing * kRestFlight * state.def.contact_step ? 0 : e;
 }
 
-void ImpactResponse::resolve(CollisionState& state, Island& island,
-                             std::span<const int> island_of, int record, double t,
-                             SimulationWorker& worker) {
+void ImpactResponse::resolve(CollisionState& state, Island& island, std::span<const int> island_of,
+                             int record, double t, SimulationWorker& worker) {
   changed_.clear();
   gather_cluster(state, island, island_of, record, t, worker);
   if (!island.strays.empty()) return;

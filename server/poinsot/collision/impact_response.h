@@ -27,11 +27,11 @@ class ImpactResponse {
  private:
   void gather_cluster(CollisionState& state, Island& island, std::span<const int> island_of,
                       int record, double t, SimulationWorker& worker);
-  bool touches(CollisionState& state, const PairRecord& record, double t,
-               SimulationWorker& worker);
+  bool touches(CollisionState& state, const PairRecord& record, double t, SimulationWorker& worker);
   void add_points(CollisionState& state, int record, double t, SimulationWorker& worker);
   int local(CollisionState& state, Eigen::Index column, double t, SimulationWorker& worker);
-  double restitution(CollisionState& state, const PairRecord& record, const ImpactPoint& point) const;
+  double restitution(CollisionState& state, const PairRecord& record,
+                     const ImpactPoint& point) const;
   void tell(CollisionState& state, Island& island, double t);
 
   struct Range {

@@ -17,14 +17,14 @@ struct Island {
   // What an advance of it adds.
   struct Result {
     Tally tally;
-    double impact_loss = 0;           // [J]
-    double push_out_energy = 0;       // [J]
-    double max_penetration = 0;       // [m] in its last sub-step
-    std::uint32_t contacts = 0;       // points that push, there
-    std::uint32_t impacts = 0;        // located
+    double impact_loss = 0;      // [J]
+    double push_out_energy = 0;  // [J]
+    double max_penetration = 0;  // [m] in its last sub-step
+    std::uint32_t contacts = 0;  // points that push, there
+    std::uint32_t impacts = 0;   // located
     SearchWork work;
-    bool crowded = false;             // more impacts than it located
-    bool at_rest = false;             // in proven equilibrium throughout its last sub-step
+    bool crowded = false;  // more impacts than it located
+    bool at_rest = false;  // in proven equilibrium throughout its last sub-step
     std::vector<ImpactEvent> events;
 
     void clear();

@@ -52,8 +52,8 @@ void IslandMotion::search(CollisionState& state, PairRecord& record, double t, d
                         state.colliders[static_cast<std::size_t>(record.pair.b)],
                         state.course(record.b, horizon, in_contact, worker_)};
   const SearchSpan span{from, horizon, state.touch(record)};
-  const bool mesh = std::holds_alternative<Mesh>(pair.a.shape) ||
-                    std::holds_alternative<Mesh>(pair.b.shape);
+  const bool mesh =
+      std::holds_alternative<Mesh>(pair.a.shape) || std::holds_alternative<Mesh>(pair.b.shape);
   const SearchResult found =
       mesh ? search_mesh(state, pair, span, work)
            : search_by(state.def.impact_search, pair, span, record.memory, work);
@@ -73,10 +73,9 @@ SearchResult IslandMotion::search_mesh(CollisionState& state, const CoursePair& 
   const Collider& other = mesh_is_a ? pair.b : pair.a;
   const Course& course = mesh_is_a ? pair.course_a : pair.course_b;
   const MovingPose start = course.moving_at(span.from);
-  const double carried =
-      (span.to - span.from) *
-      (start.velocity.linear.norm() +
-       state.arm[static_cast<std::size_t>(mesh.body)] * start.velocity.angular.norm());
+  const double carried = (span.to - span.from) * (start.velocity.linear.norm() +
+                                                  state.arm[static_cast<std::size_t>(mesh.body)] *
+                                                      start.velocity.angular.norm());
   triangles_.clear();
   triangles_near(mesh, collider_pose(mesh, start.pose),
                  state.bound[static_cast<std::size_t>(&other - state.colliders.data())].grown(
@@ -88,8 +87,8 @@ SearchResult IslandMotion::search_mesh(CollisionState& state, const CoursePair& 
     const CoursePair one{mesh_is_a ? triangle : pair.a, pair.course_a,
                          mesh_is_a ? pair.b : triangle, pair.course_b};
     SearchMemory memory;
-    const SearchResult found = search_by(state.def.impact_search, one,
-                                         {span.from, first.time, span.touch}, memory, work);
+    const SearchResult found =
+        search_by(state.def.impact_search, one, {span.from, first.time, span.touch}, memory, work);
     if (found.meeting == Meeting::none) continue;
     if (first.meeting == Meeting::none || found.time < first.time) first = found;
   }
@@ -148,9 +147,8 @@ IslandMotion::Meet IslandMotion::first_meeting(Frame& frame, double t, double to
     PairRecord& record = state.pairs[r];
     if (record.standing) continue;
     if (!is_known(state, record, to)) {
-      const double lasting =
-          std::min(state.bounds_until[static_cast<std::size_t>(record.a)],
-                   state.bounds_until[static_cast<std::size_t>(record.b)]);
+      const double lasting = std::min(state.bounds_until[static_cast<std::size_t>(record.a)],
+                                      state.bounds_until[static_cast<std::size_t>(record.b)]);
       const bool stepped = in_contact && (step_.acts_on(record.a) || step_.acts_on(record.b));
       search(state, record, t, to, stepped ? to : lasting, in_contact, frame.island.result.work);
     }
@@ -284,7 +282,8 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   }
   for (const Eigen::Index i : step_.movers()) watch(frame, i, first.time);
   if (!frame.island.strays.empty() || first.record < 0) return first.time;
-  if (afford(frame, frame.budget, 1 + static_cast<double>(step_.points()) / kPointsPerImpact)) meet(frame, first);
+  if (afford(frame, frame.budget, 1 + static_cast<double>(step_.points()) / kPointsPerImpact))
+    meet(frame, first);
   return first.time;
 }
 

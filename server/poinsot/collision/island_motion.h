@@ -16,13 +16,11 @@ namespace poinsot {
 // One thread's means.
 class IslandMotion {
  public:
-  explicit IslandMotion(const CollisionState& state)
-      : worker_(state.world()), step_(state.def) {}
+  explicit IslandMotion(const CollisionState& state) : worker_(state.world()), step_(state.def) {}
 
   // From the world's time to t_end, or until a body strays. `island_of` per body, of this
   // frame.
-  void advance(CollisionState& state, Island& island, double t_end,
-               std::span<const int> island_of);
+  void advance(CollisionState& state, Island& island, double t_end, std::span<const int> island_of);
 
   // Brings what is known of a pair up to `to`, from t on; `lasting`: how long its courses hold.
   void search(CollisionState& state, PairRecord& record, double t, double to, double lasting,

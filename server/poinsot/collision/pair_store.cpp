@@ -32,6 +32,7 @@ void PairStore::drop(const PairRecord& record) {
   contact.last.clear();
   contact.last_h = 0;
   contact.margin = -1;
+  contact.digest = 0;
   free_.push_back(record.contact);
 }
 
@@ -52,21 +53,32 @@ void PairStore::index() {
   first_.back() = static_cast<int>(of_.size());
 }
 
+namespace {
+
+std::uint64_t digest_of(const PairContact& contact) {
+  Hash64 hash;
+  hash.add(contact.last_h);
+  for (const PairPoint& point : contact.points) {
+    hash.add(point.normal_impulse);
+    for (const double x : point.friction_impulse) hash.add(x);
+    for (const double x : point.offset) hash.add(x);
+    hash.add(point.approach);
+  }
+  return hash.value() | 1;
+}
+
+}  // namespace
+
 void PairStore::hash_into(Hash64& hash) const {
   for (const PairRecord& record : records_) {
     const PairContact* contact = find_contact(record);
     if (!record.standing && (contact == nullptr || contact->points.empty())) continue;
-    hash.add(static_cast<std::uint64_t>(record.pair.a));
-    hash.add(static_cast<std::uint64_t>(record.pair.b));
+    hash.add(static_cast<std::uint64_t>(record.pair.a) << 32 |
+             static_cast<std::uint32_t>(record.pair.b));
     hash.add(static_cast<std::uint64_t>(record.standing ? 1 : 0));
     if (contact == nullptr) continue;
-    hash.add(contact->last_h);
-    for (const PairPoint& point : contact->points) {
-      hash.add(point.normal_impulse);
-      for (const double x : point.friction_impulse) hash.add(x);
-      for (const double x : point.offset) hash.add(x);
-      hash.add(point.approach);
-    }
+    if (contact->digest == 0) contact->digest = digest_of(*contact);
+    hash.add(contact->digest);
   }
 }
 

@@ -31,9 +31,10 @@ struct PairPoint {
 
 struct PairContact {
   std::vector<PairPoint> points, last;
-  double last_h = 0;         // [s] sub-step of the impulses
-  Pose measured;             // of B's shape in A's frame when the points were last found …
-  double margin = -1;        // [m] … and the margin they were found with; < 0: never
+  double last_h = 0;   // [s] sub-step of the impulses
+  Pose measured;       // of B's shape in A's frame when the points were last found …
+  double margin = -1;  // [m] … and the margin they were found with; < 0: never
+  mutable std::uint64_t digest = 0;  // of all of it that a continuation depends on; 0: to be formed
 };
 
 struct PairRecord {

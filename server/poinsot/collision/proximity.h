@@ -18,8 +18,8 @@ namespace poinsot {
 void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                    double margin, Manifold& manifold);
 
-// The same for pairs that may touch along several planes, as with a mesh: one manifold for each, the
-// deepest first; replaces `manifolds`.
+// The same for pairs that may touch along several planes, as with a mesh: one manifold for each,
+// the deepest first; replaces `manifolds`.
 void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                     double margin, std::vector<Manifold>& manifolds);
 

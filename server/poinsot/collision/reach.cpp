@@ -86,8 +86,7 @@ double fastest_point(const CollisionState& state, Eigen::Index i, double duratio
 
 double worthwhile(const CollisionState& state, Eigen::Index i, double from, double to) {
   const World& world = state.world();
-  if (!world.is_kinematic(i) &&
-      (!state.simulation.flies_free() || state.simulation.is_driven(i)))
+  if (!world.is_kinematic(i) && (!state.simulation.flies_free() || state.simulation.is_driven(i)))
     return to;
   const double h = to - from;
   const double speed = linear_velocity(world, i).norm() + h * world.gravity.norm();

@@ -52,6 +52,7 @@ void Sleep::lay_down(CollisionState& state, Eigen::Index i, int group) {
   momentum(world.y, i).setZero();
   angular_momentum(world.y, i).setZero();
   state.asleep[k] = 1;
+  state.simulation.rest(i);
   state.change_course(i);
   group_of_[k] = group;
   next_[k] = -1;
@@ -76,9 +77,9 @@ void Sleep::wake_changed(CollisionState& state) {
   for (std::size_t k = 0; asleep_ > 0 && k < group_of_.size(); ++k) {
     if (group_of_[k] < 0) continue;
     const auto i = static_cast<Eigen::Index>(k);
-    const bool unchanged = std::memcmp(before_[k].y.data(), world.y.col(i).data(),
-                                       13 * sizeof(double)) == 0 &&
-                           same(before_[k].held, world.held[k]);
+    const bool unchanged =
+        std::memcmp(before_[k].y.data(), world.y.col(i).data(), 13 * sizeof(double)) == 0 &&
+        same(before_[k].held, world.held[k]);
     if (!unchanged) wake(state, i);
   }
 }

@@ -3,7 +3,8 @@
 // After it no point approaches (n·v ≥ 0 to rounding), impulses push and stay in their circular
 // Coulomb cones |pt| ≤ μ pn, they come in opposite pairs along one line (momentum is kept to
 // rounding), and no energy is gained at the points, with friction too. The outcome does not depend
-// on the order of the points (to rounding; with friction to 1e-6), and equal input gives equal bits.
+// on the order of the points (to rounding; with friction to 1e-6), and equal input gives equal
+// bits.
 //
 // Points that share no moving body are independent impacts. One point alone is Stronge's impact
 // (the work of restitution is e² that of compression; without coupling this is Newton's and

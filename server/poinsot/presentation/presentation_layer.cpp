@@ -5,7 +5,6 @@
 
 #include "poinsot/base/check.h"
 #include "poinsot/presentation/scene_wrenches.h"
-#include "poinsot/presentation/state_hash.h"
 
 namespace poinsot {
 
@@ -15,6 +14,7 @@ PresentationLayer::PresentationLayer(Scene scene)
     if (world().moves(i) || world().is_kinematic(i)) columns_.push_back(i);
   snapshot_.bodies.resize(columns_.size());
   body_methods_.resize(columns_.size(), Method::none);
+  captured_asleep_.resize(columns_.size(), 0);
   hold_scene_wrenches();
   capture();
 }
@@ -39,6 +39,8 @@ void PresentationLayer::reset() {
   held_ = HeldWrenches(frame_rate());
   frame_ = 0;
   impacts_so_far_ = 0;
+  captured_asleep_.assign(columns_.size(), 0);
+  digests_ = {};
   ++epoch_;
   hold_scene_wrenches();
   capture();
@@ -55,6 +57,9 @@ void PresentationLayer::capture() {
   const Stopwatch::Lap lap(times_.presentation);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];
+    const std::uint8_t asleep = collision_.is_asleep(i) ? 1 : 0;
+    if (asleep != 0 && captured_asleep_[k] != 0) continue;
+    captured_asleep_[k] = asleep;
     const Pose pose = body_pose(world(), i);
     snapshot_.bodies[k] = {world().ids[static_cast<std::size_t>(i)], pose.c, pose.q,
                            linear_velocity(world(), i), angular_velocity(world(), i)};
@@ -62,7 +67,7 @@ void PresentationLayer::capture() {
   snapshot_.epoch = epoch_;
   snapshot_.frame = frame_;
   snapshot_.sim_time_ns = std::llround(static_cast<double>(frame_) * 1e9 / frame_rate());
-  snapshot_.state_hash = state_hash(frame_, collision_, held_);
+  snapshot_.state_hash = state_hash(frame_, collision_, held_, digests_);
 
   capture_impacts();
   const CollisionReport& collision = collision_.report();

@@ -10,6 +10,7 @@
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/collision/collision_layer.h"
 #include "poinsot/presentation/held_wrenches.h"
+#include "poinsot/presentation/state_hash.h"
 #include "poinsot/protocol/frame_report.h"
 #include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
@@ -64,7 +65,10 @@ class PresentationLayer {
   std::vector<ImpactNotice> impacts_;
   std::uint64_t impacts_so_far_ = 0;   // in this epoch
   std::vector<Eigen::Index> columns_;  // of the snapshot's bodies
-  LayerTimes times_;                   // own time, and the inner layers' before the last reset
+  // Of bodies that sleep, captured and hashed once; 0: not yet.
+  std::vector<std::uint8_t> captured_asleep_;  // per body of the snapshot
+  BodyDigests digests_;
+  LayerTimes times_;  // own time, and the inner layers' before the last reset
 };
 
 }  // namespace poinsot

@@ -80,6 +80,8 @@ class SimulationLayer {
   const RotationBound& turning(Eigen::Index i, double from);
   // Something but gravity acts on the body in this frame, contacts aside.
   bool is_driven(Eigen::Index i) const { return driven_[static_cast<std::size_t>(i)] != 0; }
+  // The body is left alone from now on: nothing moves it.
+  void rest(Eigen::Index i) { methods_[static_cast<std::size_t>(i)] = Method::none; }
   bool flies_free() const { return integration_.kind() == IntegratorKind::exact; }
 
   World& world() { return world_; }
