@@ -42,10 +42,10 @@ class LevelGrid {
   }
 
   std::span<const ColliderPair> pairs() {
-    const bool all = list_.size() == items_.size();
+    all_ = list_.size() == items_.size();
     std::sort(list_.begin(), list_.end());
     for (const int i : list_) query(i);
-    if (all) {
+    if (all_) {
       pairs_.replace_all();
     } else {
       pairs_.replace_touched(is_set_);
@@ -95,7 +95,8 @@ class LevelGrid {
 
   void query(int i) {
     const Aabb box = items_[index(i)].box;
-    for (int level = -32; level < 32; ++level) {
+    // With all boxes set, those of finer levels look up this one.
+    for (int level = all_ ? items_[index(i)].cell.level : -32; level < 32; ++level) {
       if (count_[level_index(level)] == 0) continue;
       int low[3], high[3];
       double cells = 1;
@@ -120,8 +121,9 @@ class LevelGrid {
   }
   void meet(int i, int j, const Aabb& box) {
     const Item& other = items_[index(j)];
-    if ((j > i || (j < i && !is_set_[index(j)])) && (other.moves || items_[index(i)].moves) &&
-        box.overlaps(other.box))
+    const bool coarser = all_ && other.cell.level > items_[index(i)].cell.level;
+    if ((j > i || coarser || (j < i && !is_set_[index(j)])) &&
+        (other.moves || items_[index(i)].moves) && box.overlaps(other.box))
       pairs_.found().push_back({std::min(i, j), std::max(i, j)});
   }
 
@@ -129,6 +131,7 @@ class LevelGrid {
   std::vector<unsigned char> is_set_;
   std::vector<int> list_, head_;
   std::size_t mask_ = 0;
+  bool all_ = false;             // boxes were set
   std::array<int, 64> count_{};  // of boxes, per level
   PairList pairs_;
 };

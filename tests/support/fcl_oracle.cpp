@@ -1,13 +1,12 @@
 #include "support/fcl_oracle.h"
 
-#include <memory>
-
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
@@ -41,9 +40,17 @@ struct ToFcl {
     }
     return std::make_shared<fcl::Convexd>(vertices, static_cast<int>(s.faces.size()), faces);
   }
-  Geometry operator()(const HalfSpace&) const { return nullptr; }
+  Geometry operator()(const HalfSpace& s) const {
+    return std::make_shared<fcl::Halfspaced>(s.normal, s.offset);
+  }
   Geometry operator()(const Mesh&) const { return nullptr; }
 };
+
+}  // namespace
+
+Geometry to_fcl(const Shape& shape) {
+  return std::visit(ToFcl(), shape);
+}
 
 fcl::Transform3d to_fcl(const Pose& pose) {
   fcl::Transform3d X = fcl::Transform3d::Identity();
@@ -52,14 +59,12 @@ fcl::Transform3d to_fcl(const Pose& pose) {
   return X;
 }
 
-}  // namespace
-
 double fcl_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   fcl::DistanceRequestd request(true, false);
   request.gjk_solver_type = fcl::GST_LIBCCD;
   request.distance_tolerance = 1e-12;
   fcl::DistanceResultd result;
-  const Geometry ga = std::visit(ToFcl(), a), gb = std::visit(ToFcl(), b);
+  const Geometry ga = to_fcl(a), gb = to_fcl(b);
   return fcl::distance(ga.get(), to_fcl(pose_a), gb.get(), to_fcl(pose_b), request, result);
 }
 

@@ -2,9 +2,17 @@
 
 #pragma once
 
+#include <memory>
+
+#include <fcl/geometry/collision_geometry.h>
+
 #include "poinsot/collision/collider.h"
 
 namespace poinsot::test {
+
+// A shape and a pose as FCL has them.
+std::shared_ptr<fcl::CollisionGeometryd> to_fcl(const Shape& shape);
+fcl::Transform3d to_fcl(const Pose& pose);
 
 // Unsigned distance [m], −1 or 0 when the shapes overlap. Not for half-spaces. Exact to 1e-14 of
 // the size for polyhedra, to about 1e-5 at worst for cylinders and cones.

@@ -7,7 +7,6 @@
 namespace poinsot {
 namespace {
 
-// From this share of boxes on, pairing all anew is cheaper than pairing those that were set.
 std::vector<int> bodies(std::span<const Collider> colliders) {
   std::vector<int> result;
   for (const Collider& collider : colliders) result.push_back(static_cast<int>(collider.body));
@@ -34,11 +33,6 @@ BroadPhase::BroadPhase(std::span<const Collider> colliders)
     tree_.set_idle(static_cast<int>(i), true);
   }
   which_.reserve(colliders.size());
-}
-
-BroadPhase::BroadPhase(std::span<const Collider> colliders, const std::vector<bool>& moves)
-    : BroadPhase(colliders) {
-  for (std::size_t i = 0; i < moves.size(); ++i) set_moves(static_cast<int>(i), moves[i]);
 }
 
 void BroadPhase::touch(int i) {
@@ -101,18 +95,6 @@ void BroadPhase::find_under(const Plane& plane, int i) {
   if (body_[static_cast<std::size_t>(i)] == body_[static_cast<std::size_t>(plane.collider)]) return;
   if (reaches(tree_.box(i), plane.normal, plane.offset))
     list_.found().push_back({std::min(plane.collider, i), std::max(plane.collider, i)});
-}
-
-std::span<const ColliderPair> BroadPhase::pairs(std::span<const Aabb> tight,
-                                                std::span<const double> reach) {
-  const bool fresh = grown_.empty();
-  if (fresh) grown_.assign(tight.begin(), tight.end());
-  for (std::size_t i = 0; i < tight.size(); ++i) {
-    if (!fresh && grown_[i].contains(tight[i])) continue;
-    grown_[i] = tight[i].grown(tree_.is_idle(static_cast<int>(i)) ? 0 : reach[i]);
-    set(static_cast<int>(i), grown_[i]);
-  }
-  return pairs();
 }
 
 }  // namespace poinsot

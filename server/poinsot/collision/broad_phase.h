@@ -20,7 +20,6 @@ class BroadPhase {
  public:
   // All boxes empty: they meet nothing. All colliders move but half-spaces.
   explicit BroadPhase(std::span<const Collider> colliders);
-  BroadPhase(std::span<const Collider> colliders, const std::vector<bool>& moves);  // per collider
 
   // All that collider i can reach until its box is set again [m], in W; ignored for a half-space.
   // A box with a number that is not finite is taken as empty and false is returned.
@@ -35,10 +34,6 @@ class BroadPhase {
 
   // Sorted by (a, b). Valid until called again.
   std::span<const ColliderPair> pairs();
-
-  // Pairs whose tight boxes may overlap, sorted. `reach[i]` [m]: how far collider i may travel
-  // until the pairs are wanted afresh; a shorter reach costs more updates, never a missed pair.
-  std::span<const ColliderPair> pairs(std::span<const Aabb> tight, std::span<const double> reach);
 
  private:
   struct Plane {
@@ -58,7 +53,6 @@ class BroadPhase {
   std::vector<unsigned char> touched_;  // per collider: to be paired anew
   std::vector<int> which_;              // those touched
   PairList list_;
-  std::vector<Aabb> grown_;  // per collider, of pairs(tight, reach)
 };
 
 }  // namespace poinsot

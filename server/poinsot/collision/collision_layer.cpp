@@ -8,18 +8,25 @@
 namespace poinsot {
 namespace {
 
-// Shares the CPU time of a frame among the layers as they shared its wall time: reading the CPU
-// clock takes a system call, too dear for every sub-step.
+// Shares the CPU time of a frame among the layers as they shared its wall time. Reading the CPU
+// clock takes a system call, too dear for every short frame: then it is taken as a part of the wall
+// time, which now and then is measured.
 class FrameTimes {
  public:
-  explicit FrameTimes(CollisionTimes& times)
-      : times_(times), before_(times), start_(Stopwatch::now()) {}
+  FrameTimes(CollisionTimes& times, CpuShare& share)
+      : times_(times), before_(times), share_(share) {
+    constexpr double kShort = 1e-4;  // [s]
+    constexpr unsigned kMeasureEvery = 16;
+    measures_ = share.last_wall_s > kShort || share.frames++ % kMeasureEvery == 0;
+    if (measures_) start_ = Stopwatch::now();
+  }
   ~FrameTimes() {
-    const double cpu = Stopwatch::now().cpu_s - start_.cpu_s;
     const double wall = wall_of(times_) - wall_of(before_);
+    share_.last_wall_s = wall;
     if (wall <= 0) return;
+    if (measures_) share_.cpu_per_wall = (Stopwatch::now().cpu_s - start_.cpu_s) / wall;
     const auto share = [&](Elapsed& now, const Elapsed& before) {
-      now.cpu_s += cpu * (now.wall_s - before.wall_s) / wall;
+      now.cpu_s += share_.cpu_per_wall * (now.wall_s - before.wall_s);
     };
     share(times_.collision, before_.collision);
     share(times_.contact, before_.contact);
@@ -35,6 +42,8 @@ class FrameTimes {
 
   CollisionTimes& times_;
   CollisionTimes before_;
+  CpuShare& share_;
+  bool measures_;
   Elapsed start_;
 };
 
@@ -68,7 +77,7 @@ bool CollisionLayer::is_asleep(Eigen::Index i) const {
 
 void CollisionLayer::advance_to(double t_end) {
   {
-    const FrameTimes frame_times(times_);
+    const FrameTimes frame_times(times_, cpu_share_);
     frame_->motion.advance_to(t_end, report_, impacts_, times_);
   }
   if (simulation().quarantined() != quarantined_) rebase_energy();

@@ -44,6 +44,13 @@ struct CollisionTimes {
   Elapsed simulation;  // integrating what nothing meets
 };
 
+// How CPU time is told from wall time while frames are short.
+struct CpuShare {
+  unsigned frames = 0;
+  double last_wall_s = 0;   // [s] of the last frame
+  double cpu_per_wall = 1;  // as last measured
+};
+
 class CollisionLayer {
  public:
   explicit CollisionLayer(const Scene& scene);
@@ -89,6 +96,7 @@ class CollisionLayer {
   double start_energy_;  // [J]
   std::uint32_t quarantined_ = 0;
   CollisionTimes times_;
+  CpuShare cpu_share_;
 };
 
 // Pairs of bodies that overlap by more than the scene's tolerance, as faults that name both and the

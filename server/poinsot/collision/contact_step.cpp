@@ -272,14 +272,58 @@ ContactStep::Outcome ContactStep::solve(CollisionState& state, Books& books) {
   }
   find_movers(state);
   Outcome outcome;
-  outcome.settled = solver_.residual <= def_.sleep_acceleration * h_;
   for (const Contact& contact : contacts_) {
     outcome.pushing += contact.normal_impulse > 0 ? 1 : 0;
     outcome.max_penetration = std::max(outcome.max_penetration, -contact.gap);
-    const double limit = (1 - kInsideCone) * contact.friction * contact.normal_impulse;
-    if (contact.friction_impulse.squaredNorm() > limit * limit) outcome.settled = false;
   }
   return outcome;
+}
+
+bool ContactStep::holds_all(const CollisionState& state,
+                            std::span<const Eigen::Index> bodies) const {
+  return std::all_of(bodies.begin(), bodies.end(), [&](Eigen::Index i) {
+    return state.is_awake(i) && local_of_[static_cast<std::size_t>(i)] >= 0;
+  });
+}
+
+bool ContactStep::proves_rest(CollisionState& state) {
+  constexpr double kVisits = 20000, kMostSweeps = 1000;  // of points, and of all points
+  const World& world = state.world();
+  const double still = def_.sleep_acceleration * h_;
+  if (contacts_.empty()) return false;
+  gather(world);
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const Eigen::Index i = columns_[k];
+    ContactBody& body = bodies_[k];
+    body.v.setZero();
+    body.omega.setZero();
+    if (!state.is_awake(i)) continue;
+    const Wrench w = acting_wrench(world, i);
+    body.v = (h_ * body.inv_mass) * w.force;
+    body.omega = h_ * (body.inv_J_W * w.torque);
+  }
+  target_.assign(contacts_.size(), 0);
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    target_[i] = -std::max(contacts_[i].gap, 0.0) / h_;
+  const int sweeps = solver_.sweeps;
+  const double settled_speed = solver_.settled_speed;
+  solver_.sweeps = static_cast<int>(
+      std::clamp(kVisits / static_cast<double>(contacts_.size()), 10.0, kMostSweeps));
+  solver_.settled_speed = 0.01 * still;
+  solver_.solve(bodies_, contacts_, target_);
+  solver_.sweeps = sweeps;
+  solver_.settled_speed = settled_speed;
+  remember(state);
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const double arm = state.arm[static_cast<std::size_t>(columns_[k])];
+    if (state.is_awake(columns_[k]) &&
+        !(bodies_[k].v.norm() <= still && arm * bodies_[k].omega.norm() <= still))
+      return false;
+  }
+  return std::all_of(contacts_.begin(), contacts_.end(), [](const Contact& contact) {
+    const double limit = (1 - kInsideCone) * contact.friction * contact.normal_impulse;
+    return contact.friction_impulse.squaredNorm() <= limit * limit;
+  });
 }
 
 void ContactStep::push_out(CollisionState& state, Books& books) {

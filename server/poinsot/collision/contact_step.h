@@ -26,8 +26,6 @@ class ContactStep {
   struct Outcome {
     std::uint32_t pushing = 0;   // points with an impulse
     double max_penetration = 0;  // [m] after push-out
-    // Of an equilibrium: the solve converged, and every point that pushes is inside its cone.
-    bool settled = false;
   };
 
   explicit ContactStep(const CollisionDef& def);
@@ -39,6 +37,13 @@ class ContactStep {
 
   // Moves bodies, changes momenta and fills the contact wrenches of the simulation layer.
   Outcome solve(CollisionState& state, Books& books);
+
+  // Whether the bodies of the pairs added would stay at rest if they were: impulses inside their
+  // cones are found that leave no body an acceleration above `sleep_acceleration`. The pairs keep
+  // the impulses. Bounded work: what it did not find it may find when it is asked again.
+  bool proves_rest(CollisionState& state);
+  // Whether every one of these bodies is in a pair added.
+  bool holds_all(const CollisionState& state, std::span<const Eigen::Index> bodies) const;
 
   // Part of h that the bodies may move on before one could pass through another: 1 if nothing
   // became faster than was foreseen or turns fast.

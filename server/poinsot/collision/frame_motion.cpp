@@ -15,6 +15,8 @@ constexpr double kForEver = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFlownTogether = 256;
 // Room beside the boxes of excited bodies, so that they last: of the size.
 constexpr double kRoom = 0.1;
+// Boxes that reach farther than needed by more than this, of the bounding radius, are made anew.
+constexpr double kSpare = 0.5;
 // An impact may give a body up to twice the speed at which it happens.
 constexpr double kThrown = 2;
 // Restarts widen the boxes of strays; from this one on they hold everything.
@@ -129,8 +131,11 @@ void FrameMotion::set_bounds(double t_end) {
     if (bounded_[k] == state_.stamp[k] && state_.bounds_until[k] >= t_end) continue;
     bool inside = bounded_[k] != state_.stamp[k];  // boxes that were made with room may do
     for (const Collider& collider : state_.colliders_of(i)) {
-      const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
-      inside = inside && state_.bound[c].contains(reach_box(state_, collider, world.time, t_end));
+      if (!inside) break;
+      const Aabb& bound = state_.bound[static_cast<std::size_t>(&collider - state_.colliders.data())];
+      const Aabb reach = reach_box(state_, collider, world.time, t_end);
+      const Vec3 spare = (bound.high - bound.low) - (reach.high - reach.low);
+      inside = bound.contains(reach) && spare.maxCoeff() <= 2 * kSpare * collider.bounding_radius;
     }
     if (inside) {
       bounded_[k] = state_.stamp[k];
@@ -306,6 +311,20 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
   islands_.partition(state_, excited_, false);
 }
 
+void FrameMotion::put_to_sleep() {
+  sleep_.next_frame();
+  const std::span<Island> islands = islands_.all();
+  tired_.assign(islands.size(), 0);
+  for (std::size_t k = 0; k < islands.size(); ++k)
+    tired_[k] = sleep_.may_sleep(state_, islands[k]) ? 1 : 0;
+  team_.run(islands.size(), [&](std::size_t k, int thread) {
+    if (tired_[k] != 0)
+      tired_[k] = motions_[static_cast<std::size_t>(thread)].proves_rest(state_, islands[k]) ? 1 : 0;
+  });
+  for (std::size_t k = 0; k < islands.size(); ++k)
+    if (tired_[k] != 0) sleep_.lay_down(state_, islands[k]);
+}
+
 bool FrameMotion::touches_now(const PairRecord& record) const {
   const World& world = state_.world();
   const auto pose = [&](int collider) {
@@ -373,8 +392,7 @@ void FrameMotion::close(double t_end, CollisionReport& report, std::vector<Impac
         state_.change_course(i);
         place_resting(i);
       }
-  if (state_.def.sleeping)
-    for (const Island& island : islands_.all()) sleep_.settle(state_, island);
+  if (state_.def.sleeping) put_to_sleep();
   report.asleep = sleep_.asleep();
 }
 

@@ -32,6 +32,7 @@ class FrameMotion {
   void excite(Eigen::Index i, double t_end, double speed);
   void run_islands(double t_end, CollisionReport& report, CollisionTimes& times);
   void gather_strays(double t_end, int attempt);
+  void put_to_sleep();
   bool touches_now(const PairRecord& record) const;
   void fly_the_rest(double t_end, Tally& tally);
   void close(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
@@ -51,6 +52,7 @@ class FrameMotion {
   std::vector<double> thrown_;          // [m/s] per body: the speed that an impact may have
   std::vector<Eigen::Index> rest_, awake_, strays_, left_;
   std::vector<Tally> rest_tallies_;
+  std::vector<std::uint8_t> tired_;  // per island
   bool boxes_changed_ = true;
   bool touched_ = true;  // the world may have been changed from outside
   bool rests_ = false;   // nothing moves

@@ -188,7 +188,7 @@ bool improve(const ConvexPair& pair, const Vec3& normal, const Simplex& s, doubl
 
 GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
   GjkResult result;
-  Simplex s;
+  Simplex s, before;
   const double touch = pair.at_least_rounding(kGjkTouch * pair.small);
   const double gap = pair.at_least_rounding(kGjkGap * pair.small);
   Vec3 v = first ? *first : Vec3(-pair.c);
@@ -199,17 +199,18 @@ GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
 
   for (; result.iterations < kGjkIterations; ++result.iterations) {
     const DifferencePoint next = difference_support(pair, -v);
-    if (const double lower = v.dot(next.w) / length; lower > result.lower) {
+    const double lower = v.dot(next.w) / length;
+    if (lower > result.lower) {
       result.lower = lower;
       result.normal = v / length;
     }
     if (s.size > 0 && (length - result.lower <= gap || result.lower > enough || s.holds(next.w)))
       break;
-    if (s.size > 0 && length - result.lower <= polish_at) {
+    if (s.size > 0 && length - lower <= polish_at) {
       if (improve(pair, v / length, s, gap, result)) return result;
-      polish_at = result.near_stationary.settled ? 0 : 0.1 * (length - result.lower);
+      polish_at = result.near_stationary.settled ? 0 : 0.1 * (length - lower);
     }
-    const Simplex before = s;
+    before = s;
     s.p[s.size++] = next;
     const bool inside = reduce(s, pair.rounding());
     const Vec3 v_before = v;
@@ -229,8 +230,11 @@ GjkResult gjk(const ConvexPair& pair, double enough, const Vec3* first) {
     touching = inside || length <= touch;
     if (touching) break;
   }
-  if (!touching && length - result.lower > gap && result.lower <= enough && length > 0 &&
-      improve(pair, v / length, s, gap, result))
+  // Polytopes end exactly, so for them touching is certain.
+  const bool unproven = touching
+                            ? pair.is_curved() && before.size > 0 && !result.near_stationary.settled
+                            : length - result.lower > gap && result.lower <= enough;
+  if (unproven && length > 0 && improve(pair, v / length, s.size == 4 ? before : s, gap, result))
     return result;
   // Not proven apart, or so close that needles of simplices cannot measure it: the penetration
   // search, whose depth has a sign, knows better.

@@ -24,7 +24,6 @@ struct Island {
     std::uint32_t impacts = 0;   // located
     SearchWork work;
     bool crowded = false;  // more impacts than it located
-    bool at_rest = false;  // in proven equilibrium throughout its last sub-step
     std::vector<ImpactEvent> events;
 
     void clear();

@@ -339,18 +339,13 @@ void IslandMotion::note(Frame& frame, const ContactStep::Outcome& outcome,
   result.max_penetration = outcome.max_penetration;
   result.impact_loss += books.impact_loss;
   result.push_out_energy += books.push_out_energy;
-  result.at_rest = outcome.settled && step_.movers().size() == frame.island.bodies.size() &&
-                   is_still(frame.state, frame.state.def.contact_step);
 }
 
-// To what a residual acceleration gives in a sub-step.
-bool IslandMotion::is_still(const CollisionState& state, double h) const {
-  const double slow = state.def.sleep_acceleration * h;
-  return std::all_of(step_.movers().begin(), step_.movers().end(), [&](Eigen::Index i) {
-    return linear_velocity(state.world(), i).norm() <= slow &&
-           state.arm[static_cast<std::size_t>(i)] * angular_velocity(state.world(), i).norm() <=
-               slow;
-  });
+bool IslandMotion::proves_rest(CollisionState& state, const Island& island) {
+  step_.begin(state, state.def.contact_step);
+  for (const int r : island.records)
+    if (state.pairs[r].standing) step_.add(state, r);
+  return step_.holds_all(state, island.bodies) && step_.proves_rest(state);
 }
 
 }  // namespace poinsot

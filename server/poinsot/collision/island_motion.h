@@ -30,6 +30,9 @@ class IslandMotion {
   void look_ahead(CollisionState& state, PairRecord& record, double t, double to, double lasting,
                   SearchWork& work);
 
+  // Whether the island would stay at rest if it were (ContactStep::proves_rest).
+  bool proves_rest(CollisionState& state, const Island& island);
+
   SimulationWorker& worker() { return worker_; }
   double contact_wall_s = 0;  // [s] spent in contacts
 
@@ -60,7 +63,6 @@ class IslandMotion {
   void advance_movers(Frame& frame, double t, double to);
   void watch(Frame& frame, Eigen::Index i, double t);
   void note(Frame& frame, const ContactStep::Outcome& outcome, const ContactStep::Books& books);
-  bool is_still(const CollisionState& state, double h) const;
   void bring_all(Frame& frame, double t);
 
   SearchResult search_mesh(CollisionState& state, const CoursePair& pair, const SearchSpan& span,

@@ -36,11 +36,12 @@ SurfacePatch patch_of_b(const ConvexPair& pair, const Vec3& normal, const Blend&
   return {pair.b, pair.R, pair.c, {points.data(), blend.size}, weights, normal};
 }
 
+enum class Refers { kNone, kA, kB };
+
 // A straight freedom of either shape, as it moves the difference of the points.
 struct Freedom {
-  Vec2 g;         // [m] in the tangents
-  double length;  // [m]
-  double off;     // [m] along the normal: to become zero
+  Vec2 g;      // [m] in the tangents
+  double off;  // [m] along the normal: to become zero
   bool of_a;
   Eigen::Index k;  // of its shape
 };
@@ -48,7 +49,9 @@ struct Freedom {
 // One step: how the normal turns, and how the points move along their freedoms.
 class Step {
  public:
-  Step(const SurfacePatch& a, const SurfacePatch& b, const Vec3& n) : T(tangents(n)) {
+  // `refers`: of two faces, the one whose normal holds.
+  Step(const SurfacePatch& a, const SurfacePatch& b, const Vec3& n, Refers refers)
+      : T(tangents(n)), refers_(refers) {
     for (std::size_t k = 0; k < a.freedoms(); ++k) add(a.freedom(k), n, true, k);
     for (std::size_t k = 0; k < b.freedoms(); ++k) add(-b.freedom(k), n, false, k);
     const Vec3 v = a.point() - b.point();
@@ -58,9 +61,9 @@ class Step {
   }
 
   // False where the separation is not at a maximum along what is left free.
-  bool solve() {
+  bool solve(double tolerance) {
     choose();
-    leave_others();
+    leave_others(tolerance);
     if (used_ == 2) return solve_fixed();
     if (used_ == 1) return solve_on_line(freedoms_[first_]);
     const double det = M_.determinant();
@@ -75,26 +78,29 @@ class Step {
 
  private:
   void add(const Vec3& g, const Vec3& n, bool of_a, std::size_t k) {
-    freedoms_[count_++] = {T.transpose() * g, g.norm(), -n.dot(g), of_a,
-                           static_cast<Eigen::Index>(k)};
+    freedoms_[count_++] = {T.transpose() * g, -n.dot(g), of_a, static_cast<Eigen::Index>(k)};
   }
   void move(const Freedom& f, double by) { (f.of_a ? along_a : along_b)[f.k] = by; }
 
   // Two freedoms that span the plane, as nearly perpendicular as there are; or the longest one.
   void choose() {
-    double widest = kParallel, longest = 0;
+    if (refers_ != Refers::kNone) {
+      used_ = 2;
+      first_ = refers_ == Refers::kA ? 0 : 2;
+      second_ = first_ + 1;
+      return;
+    }
+    if (count_ == 0) return;
+    used_ = 1;
+    std::array<double, 4> length2;
+    for (std::size_t i = 0; i < count_; ++i) length2[i] = freedoms_[i].g.squaredNorm();
+    double widest2 = kParallel * kParallel;
     for (std::size_t i = 0; i < count_; ++i) {
-      const double length = freedoms_[i].g.norm();
-      if (length > longest) {
-        longest = length;
-        if (used_ < 2) first_ = i;
-        used_ = std::max(used_, 1);
-      }
+      if (used_ == 1 && length2[i] > length2[first_]) first_ = i;
       for (std::size_t j = i + 1; j < count_; ++j) {
-        const double sine =
-            std::abs(cross(freedoms_[i].g, freedoms_[j].g)) / (length * freedoms_[j].g.norm());
-        if (!(sine > widest)) continue;
-        widest = sine;
+        const double area = cross(freedoms_[i].g, freedoms_[j].g);
+        if (!(area * area > widest2 * length2[i] * length2[j])) continue;
+        widest2 = area * area / (length2[i] * length2[j]);
         first_ = i;
         second_ = j;
         used_ = 2;
@@ -102,13 +108,20 @@ class Step {
     }
   }
   // What is left over is along the two in use, or its end is nearer than its inside.
-  void leave_others() {
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Freedom& f = freedoms_[i];
-      const bool is_used = (used_ > 0 && i == first_) || (used_ > 1 && i == second_);
-      if (!is_used && std::abs(f.off) > kOnFreedom * f.length)
-        move(f, f.off > 0 ? kPastTheEnd : -kPastTheEnd);
+  void leave_others(double tolerance) {
+    for (const bool of_a : {true, false}) {
+      double most = 0.1 * tolerance;
+      for (std::size_t i = 0; i < count_; ++i)
+        if (freedoms_[i].of_a == of_a && !is_used(i))
+          most = std::max(most, std::abs(freedoms_[i].off));
+      if (most == 0.1 * tolerance) continue;
+      for (std::size_t i = 0; i < count_; ++i)
+        if (freedoms_[i].of_a == of_a && !is_used(i))
+          move(freedoms_[i], kPastTheEnd * freedoms_[i].off / most);
     }
+  }
+  bool is_used(std::size_t i) const {
+    return (used_ > 0 && i == first_) || (used_ > 1 && i == second_);
   }
   static double cross(const Vec2& u, const Vec2& v) { return u[0] * v[1] - u[1] * v[0]; }
 
@@ -135,10 +148,25 @@ class Step {
 
   Mat2 M_;  // [m] curvature of the separation
   Vec2 r_;  // [m] how far the points are from lying opposite each other
+  Refers refers_;
   std::array<Freedom, 4> freedoms_;
   std::size_t count_ = 0, first_ = 0, second_ = 0;
   int used_ = 0;
 };
+
+// Two faces that all but face each other: the normal of the one that parts the cores more holds.
+Refers reference(const ConvexPair& pair, const SurfacePatch& a, const SurfacePatch& b, Vec3& n) {
+  if (a.freedoms() < 2 || b.freedoms() < 2) return Refers::kNone;
+  const auto normal_of = [&](const SurfacePatch& face) {
+    const Vec3 across = face.freedom(0).cross(face.freedom(1)).normalized();
+    return across.dot(n) < 0 ? Vec3(-across) : across;
+  };
+  const auto apart = [&](const Vec3& d) { return difference_support(pair, -d).w.dot(d); };
+  const Vec3 of_a = normal_of(a), of_b = normal_of(b);
+  const bool a_holds = apart(of_a) >= apart(of_b);
+  n = a_holds ? of_a : of_b;
+  return a_holds ? Refers::kA : Refers::kB;
+}
 
 bool is_perpendicular(const SurfacePatch& patch, const Vec3& n) {
   for (std::size_t k = 0; k < patch.freedoms(); ++k)
@@ -190,8 +218,8 @@ Polished polish(const ConvexPair& pair, const Vec3& normal, const Blend& blend, 
       a.turn_to(-n);
       b.turn_to(n);
     }
-    Step step(a, b, n);
-    if (!step.solve()) break;
+    Step step(a, b, n, reference(pair, a, b, n));
+    if (!step.solve(tolerance)) break;
     const double turn = step.turn.norm();
     if (turn > kLongestTurn) step.turn *= kLongestTurn / turn;
     n += step.T * step.turn;

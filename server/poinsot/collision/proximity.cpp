@@ -55,6 +55,9 @@ CoreQuery query_cores(const ConvexPair& pair,
   if (near.separated)
     return {{near.normal, near.on_a, near.on_b, near.distance - radii}, near.lower - radii, true};
   const Penetration deep = penetration(pair, near, accuracy);
+  // A negative depth proves the cores apart after all; then the points bound their distance.
+  if (const double distance = (deep.on_a - deep.on_b).norm(); deep.depth < 0 && distance > 0)
+    return {{deep.normal, deep.on_a, deep.on_b, distance - radii}, -deep.depth - radii, true};
   // The depth is bounded from above: the gap from below.
   return {{deep.normal, deep.on_a, deep.on_b, -deep.lower - radii}, -deep.depth - radii, false};
 }

@@ -1,11 +1,15 @@
 #include "poinsot/collision/sleep.h"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace poinsot {
 namespace {
 
-constexpr int kFrames = 2;
+constexpr double kSlow = 1e-4;     // [m/s]
+constexpr double kSlower = 0.99;   // of the speed when it was last looked at
+constexpr std::uint64_t kEvery = 8;  // frames; islands take turns
 
 bool same(const HeldWrench& a, const HeldWrench& b) {
   return a.in_W.force == b.in_W.force && a.in_W.torque == b.in_W.torque &&
@@ -15,28 +19,33 @@ bool same(const HeldWrench& a, const HeldWrench& b) {
 }  // namespace
 
 Sleep::Sleep(std::size_t bodies)
-    : still_frames_(bodies, 0), group_of_(bodies, -1), next_(bodies, -1) {}
+    : speed_(bodies, -1), group_of_(bodies, -1), next_(bodies, -1) {}
 
-void Sleep::settle(CollisionState& state, const Island& island) {
+bool Sleep::may_sleep(const CollisionState& state, const Island& island) {
   const World& world = state.world();
-  bool ready = island.result.at_rest && island.result.impacts == 0;
+  const auto first = static_cast<std::size_t>(island.bodies.front());
+  if ((frame_ + first) % kEvery != 0 || island.result.impacts > 0) return false;
+  double speed = 0;
   for (const Eigen::Index i : island.bodies) {
     const auto k = static_cast<std::size_t>(i);
     const bool alone = world.systems.empty() || world.system_of[k] == World::kLone;
-    ready = ready && alone && world.moves(i);
+    if (!alone || !world.moves(i)) return false;
+    speed = std::max({speed, linear_velocity(world, i).norm(),
+                      state.arm[k] * angular_velocity(world, i).norm()});
   }
-  for (const Eigen::Index i : island.bodies) {
-    int& frames = still_frames_[static_cast<std::size_t>(i)];
-    frames = ready ? frames + 1 : 0;
-    ready = ready && frames >= kFrames;
-  }
-  if (!ready) return;
   // What it rests on must not move either.
   for (const int r : island.records) {
-    const PairRecord& record = state.pairs[r];
-    if (record.standing && (world.is_kinematic(record.a) || world.is_kinematic(record.b))) return;
+    const PairRecord& record = state.pairs.records()[static_cast<std::size_t>(r)];
+    if (record.standing && (world.is_kinematic(record.a) || world.is_kinematic(record.b)))
+      return false;
   }
-  if (before_.empty()) before_.resize(still_frames_.size());
+  const double before = std::exchange(speed_[first], speed);
+  const double still = state.def.sleep_acceleration * state.def.contact_step;
+  return speed <= still || (speed <= kSlow && before >= 0 && speed <= kSlower * before);
+}
+
+void Sleep::lay_down(CollisionState& state, const Island& island) {
+  if (before_.empty()) before_.resize(speed_.size());
   const auto first = static_cast<int>(island.bodies.front());
   int last = -1;
   for (const Eigen::Index i : island.bodies) {
@@ -66,7 +75,7 @@ void Sleep::wake(CollisionState& state, Eigen::Index i) {
     state.asleep[body] = 0;
     state.change_course(k);
     group_of_[body] = -1;
-    still_frames_[body] = 0;
+    speed_[body] = -1;
     --asleep_;
     k = next_[body];
   }
@@ -85,9 +94,10 @@ void Sleep::wake_changed(CollisionState& state) {
 }
 
 void Sleep::hash_into(Hash64& hash) const {
-  for (std::size_t k = 0; k < group_of_.size(); ++k)
-    if (group_of_[k] >= 0 || still_frames_[k] > 0)
-      hash.add(static_cast<std::uint64_t>(k) << 32 | static_cast<std::uint32_t>(still_frames_[k]));
+  for (std::size_t k = 0; k < group_of_.size(); ++k) {
+    if (group_of_[k] >= 0) hash.add(static_cast<std::uint64_t>(k));
+    if (speed_[k] >= 0) hash.add(speed_[k]);
+  }
 }
 
 }  // namespace poinsot

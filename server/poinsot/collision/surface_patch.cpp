@@ -6,11 +6,20 @@
 namespace poinsot {
 namespace {
 
-constexpr double kAlongAxis = 1e-9;  // sine below which a normal has no part across an axis
-constexpr double kLean = 1e-3;       // [rad] by which a normal leaves an axis
-constexpr double kFacesCap = 0.1;    // sine below which a disc is tried before its rim
-constexpr double kFlat = 1e-9;       // [-] of their distances: corners in a plane
-constexpr double kInside = 0.95;     // [-] of the radius, where the blend has to lie for that
+constexpr double kAlongAxis = 1e-13;  // sine below which a normal has no part across an axis
+constexpr double kLean = 1e-3;        // [rad] by which a normal leaves an axis
+constexpr double kFacesCap = 0.1;     // sine below which a disc is tried before its rim
+constexpr double kFlat = 1e-9;        // [-] of their distances: corners in a plane
+constexpr double kInside = 0.95;      // [-] of the radius, where the blend has to lie for that
+
+// Whether support_feature() thins none of its faces.
+bool has_whole_faces(const Collider& shape) {
+  const auto* convex = std::get_if<Convex>(&shape.shape);
+  if (!convex) return true;
+  for (const Convex::Face& face : convex->faces)
+    if (face.loop.size() > Feature::kMaxCorners) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -34,7 +43,8 @@ SurfacePatch::SurfacePatch(const Collider& shape, const Mat3& R, const Vec3& c,
     start_round(points, weights, m);
   } else {
     start_corners(points, weights, kFlat * shape.bounding_radius);
-    if (freedoms_ == 2) start_polygon(support_feature(shape, R.transpose() * m), R);
+    if (freedoms_ == 2 && has_whole_faces(shape))
+      start_polygon(support_feature(shape, R.transpose() * m), R);
   }
 }
 
@@ -151,6 +161,9 @@ void SurfacePatch::turn_to(const Vec3& m) {
       bend_ *= t_[0];
       return;
     case Kind::kDisc:
+      leaning_ = m - axis_.dot(m) * axis_;
+      freedoms_ = 2;
+      break;
     case Kind::kPolygon:
       freedoms_ = 2;
       break;
@@ -208,7 +221,7 @@ Vec3 SurfacePatch::move(const Vec2& by) {
       if (t_.squaredNorm() > 1) {
         across_ = (t_[0] * g_[0] + t_[1] * g_[1]).normalized();
         become_rim(side_);
-        return kLean * across_;
+        if (leaning_.dot(across_) <= kAlongAxis) return kLean * across_;
       }
       break;
     default:

@@ -61,6 +61,7 @@ class SurfacePatch {
   Vec3 center_;                   // [m]
   Vec3 axis_ = Vec3::Zero();      // unit; of a round shape
   Vec3 across_ = Vec3::Zero();    // unit; of m across the axis
+  Vec3 leaning_ = Vec3::Zero();   // part of m across the axis, for a disc
   double radius_ = 0, half_ = 0;  // [m] and half the length
   double side_ = 1;               // of the rim or disc on the axis
   double bend_ = 0;               // [m] radius by which the rim's point turns with m

@@ -120,7 +120,6 @@ void SequentialImpulses::solve(std::span<ContactBody> bodies, std::span<Contact>
         moved = std::max(moved, visit_friction(prepared_[i], contacts[i].friction, bodies));
       moved = std::max(moved, visit_normal(prepared_[i], target[i], bodies));
     }
-    residual = moved;
     if (moved <= settled_speed) break;
   }
   // Normal impulses may have shrunk since friction was last looked at: back into the cone.

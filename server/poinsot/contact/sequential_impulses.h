@@ -20,7 +20,6 @@ class SequentialImpulses {
  public:
   int sweeps = 20;              // at most
   double settled_speed = 1e-7;  // [m/s] largest velocity change of a visit that ends the sweeps
-  double residual = 0;          // [m/s] the same of the last sweep of the last solve
 
   // The relative velocity of a contact's points along its normal after the solve is at least
   // target[i] [m/s] (up to the sweeps' residual). Starts from the contacts' impulses and leaves the

@@ -73,7 +73,7 @@ void expect_right(const Collider& a, const Pose& pose_a, const Collider& b, cons
   if (gap.value > rounding) {
     const double foils = unresolved(a) + unresolved(b);
     const double small = std::min(a.bounding_radius, b.bounding_radius);
-    EXPECT_LE(gap.value - gap.lower, 1e-11 * small + foils + 4 * rounding) << where;
+    EXPECT_LE(gap.value - gap.lower, 1e-11 * small + foils + 20 * rounding) << where;
     EXPECT_NEAR((gap.point_a - gap.point_b).norm(), gap.value, rounding) << where;
     EXPECT_LE(outside_by(a.shape, pose_a.inverse() * gap.point_a), rounding) << where;
     EXPECT_LE(outside_by(b.shape, pose_b.inverse() * gap.point_b), rounding) << where;
