@@ -386,7 +386,9 @@ double IslandMotion::step_foreseeing(Frame& frame, double t) {
     }
     if (!frame.island.strays.empty()) return t;
     const ContactStep::Outcome outcome = step_.solve(state, books);
-    const double part = std::max(kLeastPart, step_.sound_part(state));
+    // Of a whole sub-step, so that what is left of the frame cannot be cut for ever.
+    const double least = std::min(1.0, kLeastPart * state.def.contact_step / h);
+    const double part = std::max(least, step_.sound_part(state));
     to = part < 1 ? t + part * h : (steps == 1 ? frame.t_end : t + h);
     note(frame, outcome, books);
   }
