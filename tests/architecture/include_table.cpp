@@ -49,7 +49,7 @@ const std::vector<LibraryRule>& library_rules() {
       {"eigen", "Eigen/*", ""},
       {"yaml-cpp", "yaml-cpp/*", "scene_file* yaml_*"},
       {"qhull", "libqhull* qhull/*", "convex_hull"},
-      {"fcl", "fcl/* ccd/* octomap/*", "proximity_fcl broad_phase"},
+      {"fcl", "fcl/* ccd/* octomap/*", "proximity_fcl mesh_bvh"},
       {"dds", "fastdds/* fastrtps/* fastcdr/*", ""},
       {"cli11", "CLI/*", ""},
       {"spdlog", "spdlog/* fmt/*", ""},

@@ -53,6 +53,10 @@ TEST(RoundTrip, AReplyArrivesAsItIs) {
   expect_delivery(sample::reply());
 }
 
+TEST(RoundTrip, AnImpactArrivesAsItIs) {
+  expect_delivery(sample::impact());
+}
+
 TEST(RoundTrip, ManyCommandsInOneGoAllArriveInOrder) {
   Participant here({.domain = test_domain()});
   Participant there({.domain = test_domain()});

@@ -43,6 +43,7 @@ struct ToFcl {
   Geometry operator()(const HalfSpace& s) const {
     return std::make_shared<fcl::Halfspaced>(s.normal, s.offset);
   }
+  Geometry operator()(const Mesh&) const { return nullptr; }
 };
 
 }  // namespace

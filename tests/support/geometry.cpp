@@ -154,6 +154,11 @@ Shape scaled(const Shape& shape, double k) {
                  },
                  [&](const HalfSpace& s) -> Shape {
                    return HalfSpace{s.normal, k * s.offset};
+                 },
+                 [&](const Mesh& s) -> Shape {
+                   Mesh result = s;
+                   for (Vec3& v : result.vertices) v *= k;
+                   return result;
                  }},
       shape);
 }
@@ -202,6 +207,11 @@ double support_width(const Shape& shape, const Vec3& d) {
             return d.dot(s.normal) > (1 - 1e-15) * d.norm()
                        ? s.offset * d.norm()
                        : std::numeric_limits<double>::infinity();
+          },
+          [&](const Mesh& s) {
+            double most = s.vertices[0].dot(d);
+            for (const Vec3& v : s.vertices) most = std::max(most, v.dot(d));
+            return most;
           }},
       shape);
 }
@@ -232,7 +242,8 @@ double outside_by(const Shape& shape, const Vec3& p) {
                      most = std::max(most, face.normal.dot(p) - face.offset);
                    return most;
                  },
-                 [&](const HalfSpace& s) { return s.normal.dot(p) - s.offset; }},
+                 [&](const HalfSpace& s) { return s.normal.dot(p) - s.offset; },
+                 [](const Mesh&) { return std::numeric_limits<double>::infinity(); }},
       shape);
 }
 

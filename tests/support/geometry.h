@@ -32,7 +32,7 @@ class Random {
 };
 
 // Indices of the variant.
-enum Kind { kSphere, kBox, kCapsule, kCylinder, kCone, kEllipsoid, kConvex, kHalfSpace };
+enum Kind { kSphere, kBox, kCapsule, kCylinder, kCone, kEllipsoid, kConvex, kHalfSpace, kMesh };
 std::string name_of(int kind);
 
 // Half-extents 0.2 … 1 m, times `scale`; convex: the hull of 20 random points.

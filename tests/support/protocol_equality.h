@@ -7,6 +7,7 @@
 
 #include "poinsot/protocol/body_info.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 #include "poinsot/protocol/run_control.h"
 #include "poinsot/protocol/wrench_command.h"
@@ -44,6 +45,7 @@ inline void expect_same(const BodyInfo& a, const BodyInfo& b) {
   EXPECT_EQ(a.count, b.count);
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.is_static, b.is_static);
+  EXPECT_EQ(a.is_kinematic, b.is_kinematic);
   EXPECT_EQ(a.mass_properties.mass, b.mass_properties.mass);
   EXPECT_EQ(a.mass_properties.center_of_mass, b.mass_properties.center_of_mass);
   EXPECT_EQ(a.mass_properties.J, b.mass_properties.J);
@@ -71,6 +73,12 @@ inline void expect_same(const RunReport& a, const RunReport& b) {
   EXPECT_EQ(a.frame.bodies, b.frame.bodies);
   EXPECT_EQ(a.frame.contacts, b.frame.contacts);
   EXPECT_EQ(a.frame.quarantined, b.frame.quarantined);
+  EXPECT_EQ(a.frame.islands, b.frame.islands);
+  EXPECT_EQ(a.frame.restarts, b.frame.restarts);
+  EXPECT_EQ(a.frame.impact_searches, b.frame.impact_searches);
+  EXPECT_EQ(a.frame.impacts, b.frame.impacts);
+  EXPECT_EQ(a.frame.impacts_so_far, b.frame.impacts_so_far);
+  EXPECT_EQ(a.frame.asleep, b.frame.asleep);
   EXPECT_EQ(a.frame.energy, b.frame.energy);
   EXPECT_EQ(a.frame.energy_error, b.frame.energy_error);
   EXPECT_EQ(a.frame.push_out_energy, b.frame.push_out_energy);
@@ -88,6 +96,7 @@ inline void expect_same(const RunReport& a, const RunReport& b) {
   EXPECT_EQ(a.commands_accepted, b.commands_accepted);
   EXPECT_EQ(a.commands_refused, b.commands_refused);
   EXPECT_EQ(a.snapshots_dropped, b.snapshots_dropped);
+  EXPECT_EQ(a.events_dropped, b.events_dropped);
   expect_same(a.times.presentation, b.times.presentation);
   expect_same(a.times.collision, b.times.collision);
   expect_same(a.times.contact, b.times.contact);
@@ -128,6 +137,26 @@ inline void expect_same(const Reply& a, const Reply& b) {
   EXPECT_EQ(a.first_frame, b.first_frame);
   EXPECT_EQ(a.last_frame, b.last_frame);
   EXPECT_EQ(a.state_hash, b.state_hash);
+}
+
+inline void expect_same(const ImpactedBody& a, const ImpactedBody& b) {
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.linear_before, b.linear_before);
+  EXPECT_EQ(a.angular_before, b.angular_before);
+  EXPECT_EQ(a.linear_after, b.linear_after);
+  EXPECT_EQ(a.angular_after, b.angular_after);
+}
+
+inline void expect_same(const ImpactNotice& a, const ImpactNotice& b) {
+  EXPECT_EQ(a.session, b.session);
+  EXPECT_EQ(a.epoch, b.epoch);
+  EXPECT_EQ(a.frame, b.frame);
+  EXPECT_EQ(a.time, b.time);
+  expect_same(a.a, b.a);
+  expect_same(a.b, b.b);
+  EXPECT_EQ(a.point, b.point);
+  EXPECT_EQ(a.normal, b.normal);
+  EXPECT_EQ(a.impulse, b.impulse);
 }
 
 }  // namespace poinsot

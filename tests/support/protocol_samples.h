@@ -8,6 +8,7 @@
 
 #include "poinsot/protocol/body_info.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 #include "poinsot/protocol/run_control.h"
 #include "poinsot/protocol/wrench_command.h"
@@ -55,20 +56,27 @@ inline RunReport report() {
   report.session = 31;
   report.epoch = 32;
   report.state = RunState::paused;
-  report.frame = {.frame = 33,
-                  .sim_time = 34.5,
-                  .bodies = 35,
-                  .contacts = 36,
-                  .quarantined = 37,
-                  .energy = -38.5,
-                  .energy_error = 39e-12,
-                  .push_out_energy = 40.5,
-                  .max_penetration = 41e-6,
-                  .position_error = 41e-15,
-                  .orientation_error = 42e-15,
-                  .momentum_error = 43e-15,
-                  .methods = {141, 142, 143, 144, 145, 146, 147, 148, 149},
-                  .flags = FrameFlag::inbox_full | FrameFlag::overrun | FrameFlag::stiff};
+  report.frame = {
+      .frame = 33,
+      .sim_time = 34.5,
+      .bodies = 35,
+      .contacts = 36,
+      .quarantined = 37,
+      .islands = 137,
+      .restarts = 138,
+      .impact_searches = 139,
+      .impacts = 140,
+      .impacts_so_far = 1'000'000'000'000,
+      .asleep = 1141,
+      .energy = -38.5,
+      .energy_error = 39e-12,
+      .push_out_energy = 40.5,
+      .max_penetration = 41e-6,
+      .position_error = 41e-15,
+      .orientation_error = 42e-15,
+      .momentum_error = 43e-15,
+      .methods = {141, 142, 143, 144, 145, 146, 147, 148, 149},
+      .flags = FrameFlag::inbox_full | FrameFlag::overrun | FrameFlag::stiff | FrameFlag::crowded};
   report.body_methods = {Method::flight, Method::explicit_euler, Method::none, Method::taylor};
   report.frame_rate = 42.5;
   report.real_time_factor = 43.5;
@@ -77,6 +85,7 @@ inline RunReport report() {
   report.commands_accepted = 46;
   report.commands_refused = 47;
   report.snapshots_dropped = 48;
+  report.events_dropped = 49;
   report.times = {{51, 52}, {53, 54}, {55, 56}, {57, 58}, {59, 60}};
   return report;
 }
@@ -112,6 +121,18 @@ inline Reply reply() {
           .first_frame = 94,
           .last_frame = kForever,
           .state_hash = 95};
+}
+
+inline ImpactNotice impact() {
+  return {.session = 101,
+          .epoch = 102,
+          .frame = 103,
+          .time = 104.25,
+          .a = {{105, 106}, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}},
+          .b = {{107, 108}, {-1, -2, -3}, {-4, -5, -6}, {-7, -8, -9}, {-10, -11, -12}},
+          .point = {0.1, 0.2, 0.3},
+          .normal = {0.6, 0, -0.8},
+          .impulse = {1e-3, 2e-3, -3e-3}};
 }
 
 }  // namespace poinsot::sample

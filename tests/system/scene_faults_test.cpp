@@ -27,8 +27,11 @@ constexpr Fault kFaults[] = {
     {"UnknownBodyKey", 2, "'density'", "bodies:\n  - {name: a, shape: {sphere: 1}, densty: 1}\n"},
     {"UnknownShape", 2, "'sphere'", "bodies:\n  - {name: a, shape: {sphere_: 1}, density: 1}\n"},
     {"UnknownIntegrator", 1, "'rk4'", "simulation: {integrator: rk5}\nbodies: []\n"},
-    {"KeyOfLater", 2, "kinematic",
-     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1, kinematic: true}\n"},
+    {"KeyOfLater", 2, "surface_velocity",
+     "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1, surface_velocity: [1, 0, 0]}\n"},
+    {"PairWithNobody", 4, "did you mean 'box'",
+     "bodies:\n  - {name: box, shape: {sphere: 1}, density: 1}\npairs:\n"
+     "  - {a: bax, b: box, collide: false}\n"},
     {"Tolerance", 1, "tolerance", "simulation: {tolerance: 1}\nbodies: []\n"},
     {"Drag", 2, "linear drag",
      "bodies:\n  - {name: a, shape: {sphere: 1}, density: 1, drag: {linear: -1}}\n"},

@@ -88,6 +88,15 @@ std::string pose_lines(const PoseSnapshot& poses, const Roster& roster, double f
   return text;
 }
 
+std::string impact_line(const ImpactNotice& impact, const std::string& a, const std::string& b) {
+  std::string text = fmt::format("{} {:.12g} {} {}", impact.frame, impact.time, poinsot::quoted(a),
+                                 poinsot::quoted(b));
+  for (const Vec3* v : {&impact.point, &impact.normal, &impact.impulse, &impact.a.linear_before,
+                        &impact.a.linear_after, &impact.b.linear_before, &impact.b.linear_after})
+    for (const double x : *v) text += fmt::format(" {:.9g}", x);
+  return text + '\n';
+}
+
 std::string push_text(const WrenchCommand& command, const Reply& reply, double frame_rate) {
   if (command.hold == Hold::clear)
     return fmt::format("{}: cleared from frame {} on ({:.3f} s)\n", command.body_name,
@@ -115,8 +124,12 @@ std::string status_text(const std::string& world, const RunReport& r) {
   text += fmt::format("frame        {} ({:.3f} s), epoch {}\n", f.frame, f.sim_time, r.epoch);
   text += fmt::format("pace         {:g} Hz, {:.3f} of real time, {} overruns\n", r.frame_rate,
                       r.real_time_factor, r.overruns);
-  text += fmt::format("bodies       {} moving, {} quarantined\n", f.bodies, f.quarantined);
+  text += fmt::format("bodies       {} moving, {} asleep, {} quarantined\n", f.bodies, f.asleep,
+                      f.quarantined);
   text += fmt::format("contacts     {}, deepest {:.3g} m\n", f.contacts, f.max_penetration);
+  text += fmt::format("islands      {}, {} restarts, {} impact searches\n", f.islands, f.restarts,
+                      f.impact_searches);
+  text += fmt::format("impacts      {}, {} in all\n", f.impacts, f.impacts_so_far);
   text += fmt::format("energy       {:.6g} J, error {:.3g}, push-out {:.3g} J\n", f.energy,
                       f.energy_error, f.push_out_energy);
   text += fmt::format("local error  {:.3g} m, {:.3g} rad\n", f.position_error, f.orientation_error);
@@ -125,7 +138,8 @@ std::string status_text(const std::string& world, const RunReport& r) {
   text += fmt::format("methods      {}\n", methods.empty() ? "none yet" : methods);
   text += fmt::format("commands     {} accepted, {} refused\n", r.commands_accepted,
                       r.commands_refused);
-  text += fmt::format("snapshots    {} dropped\n", r.snapshots_dropped);
+  text +=
+      fmt::format("dropped      {} snapshots, {} events\n", r.snapshots_dropped, r.events_dropped);
   text += fmt::format(
       "cpu [s]      presentation {:.3f}, collision {:.3f}, contact {:.3f}, simulation {:.3f}, "
       "publishing {:.3f}\n",
@@ -142,8 +156,10 @@ std::string list_text(const std::string& world, const RunReport& report,
                                  state_name(report.state), report.frame.frame,
                                  report.frame.sim_time, report.frame_rate, bodies.size());
   for (const BodyInfo& body : bodies) {
-    const std::string mass =
-        body.is_static ? "static" : fmt::format("{:.4g} kg", body.mass_properties.mass);
+    const std::string mass = body.is_static ? "static"
+                             : body.is_kinematic
+                                 ? "kinematic"
+                                 : fmt::format("{:.4g} kg", body.mass_properties.mass);
     text += fmt::format("  {:<20} {:<12} {}\n", body.name, mass, shape_text(body));
   }
   return text;

@@ -10,6 +10,7 @@
 #include "poinsot/cli/roster.h"
 #include "poinsot/protocol/body_info.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 #include "poinsot/protocol/wrench_command.h"
 
@@ -37,6 +38,12 @@ std::vector<std::string> pose_table(const PoseSnapshot& poses, const Roster& ros
 std::string pose_lines(const PoseSnapshot& poses, const Roster& roster, double frame_rate);
 inline constexpr std::string_view kPoseLinesTitle =
     "# frame time name px py pz qx qy qz qw vx vy vz wx wy wz\n";
+
+// One line per impact, with the names of its bodies, and the comment that names the columns.
+std::string impact_line(const ImpactNotice& impact, const std::string& a, const std::string& b);
+inline constexpr std::string_view kImpactLinesTitle =
+    "# frame time a b px py pz nx ny nz jx jy jz "
+    "va_x va_y va_z va'_x va'_y va'_z vb_x vb_y vb_z vb'_x vb'_y vb'_z\n";
 
 // The answer to a wrench that was accepted; `frame_rate` [Hz] turns frames into times.
 std::string push_text(const WrenchCommand& command, const Reply& reply, double frame_rate);

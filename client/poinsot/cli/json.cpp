@@ -125,6 +125,25 @@ std::string pose_json(const PoseSnapshot& poses, const Roster& roster, double fr
   return out + "]}\n";
 }
 
+std::string impact_json(const ImpactNotice& impact, const std::string& a, const std::string& b) {
+  const auto vector = [](const Vec3& v) { return Json{v.x(), v.y(), v.z()}; };
+  const auto body = [&](const ImpactedBody& from, const std::string& name) {
+    return Json{{"name", name},
+                {"linear_before", vector(from.linear_before)},
+                {"angular_before", vector(from.angular_before)},
+                {"linear_after", vector(from.linear_after)},
+                {"angular_after", vector(from.angular_after)}};
+  };
+  return line({{"frame", impact.frame},
+               {"epoch", impact.epoch},
+               {"time", impact.time},
+               {"a", body(impact.a, a)},
+               {"b", body(impact.b, b)},
+               {"point", vector(impact.point)},
+               {"normal", vector(impact.normal)},
+               {"impulse", vector(impact.impulse)}});
+}
+
 std::string push_json(const WrenchCommand& command, const Reply& reply, double frame_rate) {
   Json json = {{"body", command.body_name},
                {"code", code_name(reply.code)},
@@ -166,6 +185,12 @@ std::string status_json(const std::string& world, const RunReport& report,
                {"bodies", frame.bodies},
                {"contacts", frame.contacts},
                {"quarantined", frame.quarantined},
+               {"asleep", frame.asleep},
+               {"islands", frame.islands},
+               {"restarts", frame.restarts},
+               {"impact_searches", frame.impact_searches},
+               {"impacts", frame.impacts},
+               {"impacts_so_far", frame.impacts_so_far},
                {"max_penetration", frame.max_penetration},
                {"energy", frame.energy},
                {"energy_error", frame.energy_error},
@@ -181,6 +206,7 @@ std::string status_json(const std::string& world, const RunReport& report,
                {"commands_accepted", report.commands_accepted},
                {"commands_refused", report.commands_refused},
                {"snapshots_dropped", report.snapshots_dropped},
+               {"events_dropped", report.events_dropped},
                {"wall_s", layers(report.times, &Elapsed::wall_s)},
                {"cpu_s", layers(report.times, &Elapsed::cpu_s)}});
 }
@@ -189,9 +215,12 @@ std::string list_json(const std::string& world, const RunReport& report,
                       const std::vector<BodyInfo>& bodies) {
   Json list = Json::array();
   for (const BodyInfo& body : bodies) {
-    list.push_back({{"name", body.name},
-                    {"static", body.is_static},
-                    {"mass", body.is_static ? Json(nullptr) : Json(body.mass_properties.mass)}});
+    list.push_back(
+        {{"name", body.name},
+         {"static", body.is_static},
+         {"kinematic", body.is_kinematic},
+         {"mass",
+          body.is_static || body.is_kinematic ? Json(nullptr) : Json(body.mass_properties.mass)}});
   }
   return line({{"world", world},
                {"state", name_of<RunState>(kRunStateNames, report.state)},

@@ -9,6 +9,7 @@
 #include "poinsot/cli/roster.h"
 #include "poinsot/protocol/body_info.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 #include "poinsot/protocol/wrench_command.h"
 
@@ -17,6 +18,10 @@ namespace poinsot {
 // {"frame", "time" [s], "bodies": [{"name", "position": [x, y, z], "orientation": {x, y, z, w},
 //   "linear_velocity": [x, y, z], "angular_velocity": [x, y, z]}]}; units and frames of BodyState.
 std::string pose_json(const PoseSnapshot& poses, const Roster& roster, double frame_rate);
+
+// {"frame", "epoch", "time" [s], "a": {"name", "linear_before", "angular_before", "linear_after",
+//   "angular_after"}, "b": {…}, "point", "normal", "impulse"}; units and frames of ImpactNotice.
+std::string impact_json(const ImpactNotice& impact, const std::string& a, const std::string& b);
 
 // {"body", "code", "message", "epoch", "first_frame", "last_frame", "start_time", "end_time"};
 // last_frame and end_time are null until cleared; times [s] are those of the frames' boundaries.

@@ -35,6 +35,11 @@ const std::string* Roster::shown(BodyId id) const {
   return entry == entries_.end() || !entry->second.shown ? nullptr : &entry->second.name;
 }
 
+const std::string* Roster::name(BodyId id) const {
+  const auto entry = entries_.find(id);
+  return entry == entries_.end() ? nullptr : &entry->second.name;
+}
+
 bool Roster::describes(const PoseSnapshot& poses) const {
   return poses.session == session_ &&
          std::all_of(poses.bodies.begin(), poses.bodies.end(),

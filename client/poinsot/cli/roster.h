@@ -22,6 +22,12 @@ class Roster {
   // The name of a body that is to be shown; null for one that is not.
   const std::string* shown(BodyId id) const;
 
+  // The name of any body of the scene, moving or not; null for one that is not on the list.
+  const std::string* name(BodyId id) const;
+
+  // The daemon process that the list is of.
+  std::uint64_t session() const { return session_; }
+
   // False if the snapshot is of another daemon process or has bodies that are not on the list.
   bool describes(const PoseSnapshot& poses) const;
 

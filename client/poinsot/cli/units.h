@@ -30,11 +30,12 @@ inline std::string hex(std::uint64_t value) {
   return text.data();
 }
 
-inline constexpr std::array<Named<FrameFlag>, 4> kFrameFlagNames = {{
+inline constexpr std::array<Named<FrameFlag>, 5> kFrameFlagNames = {{
     {"body_quarantined", FrameFlag::body_quarantined},
     {"inbox_full", FrameFlag::inbox_full},
     {"overrun", FrameFlag::overrun},
     {"stiff", FrameFlag::stiff},
+    {"crowded", FrameFlag::crowded},
 }};
 
 }  // namespace poinsot

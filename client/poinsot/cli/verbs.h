@@ -7,6 +7,7 @@
 
 #include "poinsot/cli/context.h"
 #include "poinsot/cli/control.h"
+#include "poinsot/cli/events.h"
 #include "poinsot/cli/list.h"
 #include "poinsot/cli/push.h"
 #include "poinsot/cli/status.h"
@@ -21,10 +22,12 @@ struct Verb {
   Action (*declare)(CLI::App& app);  // adds its options, returns its work
 };
 
-inline constexpr std::array<Verb, 8> kVerbs = {{
+inline constexpr std::array<Verb, 9> kVerbs = {{
     {"list", "daemons on the domain and their bodies", "poinsot list", declare_list},
     {"watch", "poses as they come: a live table, lines, or JSON",
      "poinsot watch\n  poinsot watch --body box --rate 10 --json -n 100", declare_watch},
+    {"events", "impacts as they happen: lines or JSON", "poinsot events --body ball --json -n 10",
+     declare_events},
     {"push", "push a body; prints the frames of effect",
      "poinsot push box --force 0,0,50 --for 0.5s\n"
      "  poinsot push box --force 5,0,0 --at 0,0,0.1 --frame body --hold\n"

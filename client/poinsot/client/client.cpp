@@ -84,6 +84,16 @@ struct Link {
   Waiter poses_wait, scene_wait, report_wait, reply_wait;
 };
 
+// Apart from the others: a daemon writes impacts only for those who ask.
+struct EventsLink {
+  EventsLink(Participant& participant, const std::string& world) : events(participant, world) {
+    wait.attach(events);
+  }
+
+  Subscriber<ImpactNotice> events;
+  Waiter wait;
+};
+
 using Bodies = std::map<std::uint32_t, BodyInfo>;  // by place in the scene file
 
 bool is_complete(const Bodies& bodies) {
@@ -195,6 +205,8 @@ struct Client::Impl {
   std::uint64_t seq = options.client != 0 ? nanoseconds_since_1970() : 0;
   std::string world;
   std::unique_ptr<Link> link;
+  std::unique_ptr<EventsLink> events;
+  ImpactNotice spare_impact;                     // received into
   using PoseKey = std::array<std::uint64_t, 3>;  // session, epoch, frame
   PoseKey last_taken{};
   PoseSnapshot spare;               // received into, then swapped: a refused sample spoils nothing
@@ -247,6 +259,20 @@ bool Client::latest_poses(PoseSnapshot& snapshot) {
   for (; impl_->take_poses(); any = true) std::swap(snapshot, impl_->spare);
   if (any) impl_->session = snapshot.session;
   return any;
+}
+
+bool Client::next_impact(ImpactNotice& impact, Duration timeout) {
+  impl_->opened();
+  if (!impl_->events)
+    impl_->events = std::make_unique<EventsLink>(impl_->participant, impl_->world);
+  const Clock::time_point until = deadline(timeout);
+  while (!impl_->events->events.take(impl_->spare_impact)) {
+    const Duration left = until - Clock::now();
+    if (left <= 0ns) return false;
+    impl_->events->wait.wait(left);
+  }
+  impact = impl_->spare_impact;
+  return true;
 }
 
 std::vector<BodyInfo> Client::scene(Duration timeout) {

@@ -18,6 +18,7 @@
 
 #include "poinsot/protocol/body_info.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 #include "poinsot/protocol/run_control.h"
 #include "poinsot/protocol/wrench_command.h"
@@ -71,6 +72,11 @@ class Client {
   // The newest frame's poses; older ones are skipped. False, and `snapshot` is left alone, when
   // none came since the last call.
   bool latest_poses(PoseSnapshot& snapshot);
+
+  // The next impact, in the order of their frames; false on time-out, and `impact` is left alone.
+  // The first call begins to listen: impacts before it are not told. Up to 1000 wait; who falls
+  // farther behind misses the oldest.
+  bool next_impact(ImpactNotice& impact, Duration timeout);
 
   // All bodies in the order of the scene file, once all have arrived; throws NoAnswer on time-out.
   // After a restart: of the daemon whose poses or report were read last.

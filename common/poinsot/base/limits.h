@@ -15,7 +15,11 @@ inline constexpr std::size_t kMaxShapes = 64;           // of one body
 inline constexpr std::size_t kMaxVertices = 4096;       // of one convex shape
 inline constexpr std::size_t kMaxFaceIndices = 32768;   // of one convex shape: corners and faces
 
+inline constexpr std::size_t kMaxMeshVertices = 65536;  // of one mesh
+inline constexpr std::size_t kMaxTriangles = 131072;    // of one mesh
+
 inline constexpr std::size_t kMaxSprings = 131072;      // of one scene
+inline constexpr std::size_t kMaxPairs = 131072;        // of one scene, with rules of their own
 inline constexpr std::size_t kMaxHeldWrenches = 65536;  // at once, of the scene and all clients
 
 // The largest force [N] or torque [N·m] component and point coordinate [m] that is accepted.

@@ -19,6 +19,7 @@ enum class FrameFlag : std::uint32_t {
   inbox_full = 2,        // a command was refused since the last report
   overrun = 4,           // a deadline was missed since the last report
   stiff = 8,             // springs were too stiff for the integrator: rosenbrock took over
+  crowded = 16,          // more impacts in an island than it pays to locate
 };
 
 constexpr FrameFlag operator|(FrameFlag a, FrameFlag b) {
@@ -35,7 +36,13 @@ struct FrameReport {
   std::uint32_t bodies = 0;       // dynamic
   std::uint32_t contacts = 0;     // points with a pushing impulse in the last sub-step
   std::uint32_t quarantined = 0;  // bodies frozen so far
-  double energy = 0;              // [J] kinetic + potential
+  std::uint32_t islands = 0;      // groups of bodies that might meet, gone through in this frame
+  std::uint32_t restarts = 0;     // times that islands were gone through again, merged
+  std::uint32_t impact_searches = 0;
+  std::uint32_t impacts = 0;         // located in this frame
+  std::uint64_t impacts_so_far = 0;  // since the epoch began
+  std::uint32_t asleep = 0;          // bodies in proven equilibrium
+  double energy = 0;                 // [J] kinetic + potential
   double energy_error = 0;  // [-] (ΔE − work + contact loss) / energy scale, since the epoch began
   double push_out_energy = 0;  // [J] added by the removal of penetration
   double max_penetration = 0;  // [m]
@@ -71,6 +78,7 @@ struct RunReport {
   std::uint64_t commands_accepted = 0;
   std::uint64_t commands_refused = 0;   // by the loop or the receiver
   std::uint64_t snapshots_dropped = 0;  // by the hand-over to the bus
+  std::uint64_t events_dropped = 0;     // impacts, likewise
   LayerTimes times;
 };
 

@@ -25,6 +25,10 @@ class BodyReader {
     read_name(*fields);
     if (const YamlNode* node = fields->find("static"))
       body_.is_static = reader_.boolean(*node, "static").value_or(false);
+    if (const YamlNode* node = fields->find("kinematic")) {
+      faults_.place(path_ + ".kinematic", *node);
+      body_.is_kinematic = reader_.boolean(*node, "kinematic").value_or(false);
+    }
     read_motion(*fields);
     if (const YamlNode* node = fields->find("material")) read_material(*node);
     if (const YamlNode* node = fields->find("drag")) read_drag(*node);
@@ -99,6 +103,8 @@ class BodyReader {
     sound_ = sound_ && shapes_.back().sound;
   }
 
+  bool is_dynamic() const { return !body_.is_static && !body_.is_kinematic; }
+
   // Mass ------------------------------------------------------------------------------------------
 
   void read_mass(const Fields& fields) {
@@ -131,7 +137,7 @@ class BodyReader {
     } else {
       result = mass_from_shapes(mass, density);
     }
-    if (!body_.is_static) body_.mass_properties = result;
+    if (is_dynamic()) body_.mass_properties = result;
   }
 
   void refuse(const YamlNode& node, std::string what) {
@@ -162,11 +168,12 @@ class BodyReader {
   // The homogeneous solids of the shapes: of their densities, or scaled to a given mass. 0 for
   // mass or density means that it is not given.
   MassProperties mass_from_shapes(double mass, double density) {
-    if (body_.is_static) return {};
+    if (!is_dynamic()) return {};
     if (shapes_.empty() && sound_) {
       faults_.add(node_,
                   mass > 0 ? "a body without a shape needs the key 'inertia'"
-                           : "a body that is not static needs a shape with a density, or mass and "
+                           : "a body that is neither static nor kinematic needs a shape with a "
+                             "density, or mass and "
                              "inertia",
                   path_ + ".mass");
       return {};
@@ -175,14 +182,19 @@ class BodyReader {
     for (const ShapeEntry& entry : shapes_) {
       any_density = any_density || entry.has_density;
       all_densities = all_densities && entry.has_density;
-      // A half-space has no mass; validate() refuses it on a body that moves.
-      if (!entry.sound || std::holds_alternative<HalfSpace>(entry.def.shape)) sound_ = false;
+      // Half-spaces and meshes have no mass; validate() refuses them on a body that has one.
+      if (!entry.sound || std::holds_alternative<HalfSpace>(entry.def.shape) ||
+          std::holds_alternative<Mesh>(entry.def.shape))
+        sound_ = false;
     }
     if (mass > 0 && any_density)
       refuse(node_, "a body must have either mass or shapes with a density");
     if (mass == 0 && density == 0 && !all_densities)
-      refuse(node_, any_density ? "a body that is not static needs a density for each of its shapes"
-                                : "a body that is not static needs density or mass");
+      refuse(
+          node_,
+          any_density
+              ? "a body that is neither static nor kinematic needs a density for each of its shapes"
+              : "a body that is neither static nor kinematic needs density or mass");
     if (!sound_) faults_.distrust(path_ + ".mass");
     if (faults_.distrusted(path_ + ".mass")) return {};
     std::vector<MassProperties> parts;

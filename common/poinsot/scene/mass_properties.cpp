@@ -65,6 +65,10 @@ struct Volume {
     POINSOT_CHECK(!"a half-space has no volume");
     return 0;
   }
+  double operator()(const Mesh&) const {
+    POINSOT_CHECK(!"a mesh has no volume: it is a surface");
+    return 0;
+  }
 };
 
 // Mass properties for a given mass: the closed forms listed in README.md.
@@ -111,6 +115,10 @@ struct Solid {
   }
   MassProperties operator()(const HalfSpace&) const {
     POINSOT_CHECK(!"a half-space has no mass");
+    return {};
+  }
+  MassProperties operator()(const Mesh&) const {
+    POINSOT_CHECK(!"a mesh has no mass");
     return {};
   }
 };

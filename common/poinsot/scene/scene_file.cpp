@@ -11,6 +11,7 @@
 #include "poinsot/base/error.h"
 #include "poinsot/scene/body_reader.h"
 #include "poinsot/scene/force_reader.h"
+#include "poinsot/scene/pair_reader.h"
 #include "poinsot/scene/pose_reader.h"
 #include "poinsot/scene/yaml_reader.h"
 
@@ -53,6 +54,8 @@ class SceneReader {
         read_list(*node, "springs", names_known, scene_.springs, read_spring);
       if (const YamlNode* node = fields->find("wrenches"))
         read_list(*node, "wrenches", names_known, scene_.wrenches, read_wrench);
+      if (const YamlNode* node = fields->find("pairs"))
+        read_list(*node, "pairs", names_known, scene_.pairs, read_pair);
     }
     faults_.add(validate(scene_), root_);
     if (const auto faults = faults_.sorted(); !faults.empty()) throw_faults(faults);
@@ -72,6 +75,12 @@ class SceneReader {
   void read(const Fields& fields, const std::string& table, std::string_view key, double& value) {
     read_number(fields, key, table, value, faults_, reader_);
   }
+  void read(const Fields& fields, const std::string& table, std::string_view key, int& value) {
+    const YamlNode* node = fields.find(key);
+    if (!node) return;
+    faults_.place(table + "." + std::string(key), *node);
+    value = reader_.whole(*node, key).value_or(value);
+  }
 
   void read_presentation(const YamlNode& node) {
     if (const auto fields = reader_.fields(node, "presentation", kPresentationTable))
@@ -83,22 +92,24 @@ class SceneReader {
     if (!fields) return;
     CollisionDef& def = scene_.collision;
     if (const YamlNode* item = fields->find("impact_search"))
-      def.impact_search = reader_
-                              .named<ImpactSearchKind>(*item, "impact_search", kImpactSearchNames,
-                                                       kImpactSearchesLater)
-                              .value_or(def.impact_search);
+      def.impact_search =
+          reader_.named<ImpactSearchKind>(*item, "impact_search", kImpactSearchNames, {})
+              .value_or(def.impact_search);
     if (const YamlNode* item = fields->find("contact_solver"))
       def.contact_solver = reader_
                                .named<ContactSolverKind>(*item, "contact_solver",
                                                          kContactSolverNames, kContactSolversLater)
                                .value_or(def.contact_solver);
-    if (const YamlNode* item = fields->find("iterations")) {
-      faults_.place("collision.iterations", *item);
-      def.iterations = reader_.whole(*item, "iterations").value_or(def.iterations);
-    }
+    if (const YamlNode* item = fields->find("sleeping"))
+      def.sleeping = reader_.boolean(*item, "sleeping").value_or(def.sleeping);
+    read(*fields, "collision", "iterations", def.iterations);
+    read(*fields, "collision", "max_impacts", def.max_impacts);
+    read(*fields, "collision", "threads", def.threads);
     read(*fields, "collision", "contact_step", def.contact_step);
     read(*fields, "collision", "contact_margin", def.contact_margin);
     read(*fields, "collision", "push_out_speed", def.push_out_speed);
+    read(*fields, "collision", "contact_band", def.contact_band);
+    read(*fields, "collision", "sleep_acceleration", def.sleep_acceleration);
   }
 
   void read_simulation(const YamlNode& node) {

@@ -7,6 +7,12 @@
 namespace poinsot {
 namespace {
 
+double farthest(const std::vector<Vec3>& points) {
+  double radius = 0;
+  for (const Vec3& point : points) radius = std::max(radius, point.norm());
+  return radius;
+}
+
 struct BoundingRadius {
   double operator()(const Sphere& s) const { return s.radius; }
   double operator()(const Box& s) const { return 0.5 * s.size.norm(); }
@@ -14,12 +20,9 @@ struct BoundingRadius {
   double operator()(const Cylinder& s) const { return std::hypot(s.radius, 0.5 * s.length); }
   double operator()(const Cone& s) const { return std::hypot(s.radius, 0.5 * s.length); }
   double operator()(const Ellipsoid& s) const { return s.semi_axes.maxCoeff(); }
-  double operator()(const Convex& s) const {
-    double radius = 0;
-    for (const Vec3& vertex : s.vertices) radius = std::max(radius, vertex.norm());
-    return radius;
-  }
+  double operator()(const Convex& s) const { return farthest(s.vertices); }
   double operator()(const HalfSpace&) const { return std::numeric_limits<double>::infinity(); }
+  double operator()(const Mesh& s) const { return farthest(s.vertices); }
 };
 
 }  // namespace

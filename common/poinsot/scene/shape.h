@@ -49,12 +49,20 @@ struct HalfSpace {
   Vec3 normal = Vec3::UnitZ();  // unit, pointing out of the material
   double offset = 0;            // [m]
 };
+// A surface of triangles, made by make_mesh() and by nothing else. Their corners are
+// counter-clockwise seen from outside. Static and kinematic bodies only; has no mass.
+struct Mesh {
+  std::vector<Vec3> vertices;  // [m] no two at one place
+  std::vector<std::array<int, 3>> triangles;
+  int left_out = 0;  // triangles that had no area
+};
 
-using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Convex, HalfSpace>;
+using Shape =
+    std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Convex, HalfSpace, Mesh>;
 
 // Names in the order of the variant: scene files, messages, the pair table and tests read them.
 inline constexpr std::array<std::string_view, std::variant_size_v<Shape>> kShapeNames = {
-    "sphere", "box", "capsule", "cylinder", "cone", "ellipsoid", "convex", "half_space"};
+    "sphere", "box", "capsule", "cylinder", "cone", "ellipsoid", "convex", "half_space", "mesh"};
 
 inline std::string_view shape_name(const Shape& shape) {
   return kShapeNames[shape.index()];

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
 #include "poinsot/base/error.h"
+#include "poinsot/scene/mesh_file.h"
 #include "poinsot/scene/pose_reader.h"
 
 namespace poinsot {
@@ -73,6 +75,25 @@ std::optional<Shape> read_half_space(const YamlNode& node, FaultList& faults, Ya
   return std::nullopt;
 }
 
+std::optional<Shape> read_mesh(const YamlNode& node, FaultList& faults, YamlReader& reader) {
+  const auto fields = reader.fields(node, "mesh", kMeshTable);
+  if (!fields) return std::nullopt;
+  if (fields->entries.size() < node.entries.size()) return std::nullopt;  // a key was refused
+  const YamlNode* file_node = reader.required(*fields, node, "mesh", "file");
+  const auto file = file_node ? reader.text(*file_node, "file") : std::nullopt;
+  if (!file) return std::nullopt;
+  Mesh mesh;
+  try {
+    // Relative to the scene file; an absolute path stays as it is.
+    mesh = read_mesh_file(std::filesystem::path(faults.file()).parent_path() / *file);
+  } catch (const Error& error) {
+    faults.add(*file_node, error.what());
+    return std::nullopt;
+  }
+  reader.count(*file_node, 3 * (mesh.vertices.size() + mesh.triangles.size()));
+  return mesh;
+}
+
 // In the order of the variant, like kShapeNames.
 using Read = std::optional<Shape> (*)(const YamlNode&, FaultList&, YamlReader&);
 constexpr std::array<Read, kShapeNames.size()> kReaders = {read_sphere,
@@ -82,7 +103,8 @@ constexpr std::array<Read, kShapeNames.size()> kReaders = {read_sphere,
                                                            read_round<Cone, 4>,
                                                            read_ellipsoid,
                                                            read_convex,
-                                                           read_half_space};
+                                                           read_half_space,
+                                                           read_mesh};
 
 std::optional<std::size_t> kind_of(const YamlNode::Entry& entry) {
   const auto name = std::ranges::find(kShapeNames, entry.first->text);

@@ -12,6 +12,7 @@
 #include "poinsot/scene/fault_text.h"
 #include "poinsot/scene/scene.h"
 #include "poinsot/scene/validate_forces.h"
+#include "poinsot/scene/validate_pairs.h"
 
 namespace poinsot {
 namespace {
@@ -21,8 +22,13 @@ constexpr double kMinFrameRate = 1e-3, kMaxFrameRate = 1e6;  // [Hz]
 constexpr double kMinStep = 1e-9, kMaxStep = 1;              // [s]
 constexpr double kMinTolerance = 1e-15, kMaxTolerance = 1e-1;
 constexpr double kMaxStepsPerFrame = 1e6;
+// A band below the rounding of positions of the body's size is never entered; above a thousandth
+// bodies would visibly float.
+constexpr double kMinBand = 1e-13, kMaxBand = 1e-3;
 constexpr double kLeastMass = 1e-30, kMostMass = 1e30;  // [kg] squares and inverses stay finite
 constexpr int kMaxIterations = 1'000'000;
+constexpr int kMaxImpacts = 1'000'000;  // of a frame and island
+constexpr int kMaxThreads = 256;
 
 bool sane(const Vec3& v) {
   return is_within(v, kMagnitude);
@@ -103,6 +109,19 @@ struct ShapeFault {
              digits(s.offset);
     return {};
   }
+  std::string operator()(const Mesh& s) const {
+    if (s.triangles.empty()) return "mesh must be made by make_mesh(): it has no triangles";
+    if (s.triangles.size() > kMaxTriangles || s.vertices.size() > kMaxMeshVertices)
+      return "mesh has more than " + std::to_string(kMaxTriangles) + " triangles or " +
+             std::to_string(kMaxMeshVertices) + " vertices";
+    if (!std::ranges::all_of(s.vertices, sane))
+      return "mesh vertices must be finite and at most " + digits(kMagnitude) + " m from 0";
+    const int count = static_cast<int>(s.vertices.size());
+    for (const auto& triangle : s.triangles)
+      for (const int i : triangle)
+        if (i < 0 || i >= count) return "mesh triangle names vertex " + std::to_string(i);
+    return {};
+  }
 };
 
 // Masses -----------------------------------------------------------------------------------------
@@ -127,6 +146,7 @@ class Validation {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       check_body(scene.bodies[i], "bodies[" + std::to_string(i) + "]");
     for (SceneFault& fault : validate_forces(scene)) faults_.push_back(std::move(fault));
+    for (SceneFault& fault : validate_pairs(scene)) faults_.push_back(std::move(fault));
     return std::move(faults_);
   }
 
@@ -139,6 +159,12 @@ class Validation {
   }
 
   void check_tables(const Scene& scene) {
+    check_steps(scene);
+    check_collision(scene.collision);
+    check_simulation(scene.simulation);
+  }
+
+  void check_steps(const Scene& scene) {
     const double rate = scene.presentation.frame_rate;
     require(rate >= kMinFrameRate && rate <= kMaxFrameRate, "presentation.frame_rate",
             "frame_rate must be " + digits(kMinFrameRate) + " to " + digits(kMaxFrameRate) + " Hz",
@@ -152,13 +178,27 @@ class Validation {
         add("", "collision.contact_step",
             "a frame would take more than " + digits(kMaxStepsPerFrame) + " steps of " +
                 digits(step) + " s");
+  }
+
+  void check_collision(const CollisionDef& c) {
     require(c.iterations >= 1 && c.iterations <= kMaxIterations, "collision.iterations",
             "iterations must be 1 to " + std::to_string(kMaxIterations), c.iterations);
     require(c.contact_margin >= 0 && c.contact_margin <= 1, "collision.contact_margin",
             "contact_margin must be 0 to 1", c.contact_margin);
     require(c.push_out_speed >= 0 && c.push_out_speed <= kMagnitude, "collision.push_out_speed",
             "push_out_speed must be >= 0 m/s and finite", c.push_out_speed);
-    const SimulationDef& s = scene.simulation;
+    require(c.contact_band >= kMinBand && c.contact_band <= kMaxBand, "collision.contact_band",
+            "contact_band must be " + digits(kMinBand) + " to " + digits(kMaxBand), c.contact_band);
+    require(c.max_impacts >= 0 && c.max_impacts <= kMaxImpacts, "collision.max_impacts",
+            "max_impacts must be 0 to " + std::to_string(kMaxImpacts), c.max_impacts);
+    require(c.sleep_acceleration >= 0 && c.sleep_acceleration <= kMagnitude,
+            "collision.sleep_acceleration", "sleep_acceleration must be >= 0 m/s² and finite",
+            c.sleep_acceleration);
+    require(c.threads >= 1 && c.threads <= kMaxThreads, "collision.threads",
+            "threads must be 1 to " + std::to_string(kMaxThreads), c.threads);
+  }
+
+  void check_simulation(const SimulationDef& s) {
     require(s.step == 0 || (s.step >= kMinStep && s.step <= kMaxStep), "simulation.step",
             "step must be 0 (one per contact step) or " + digits(kMinStep) + " to " +
                 digits(kMaxStep) + " s",
@@ -191,7 +231,14 @@ class Validation {
       add(body.where, path + ".shapes",
           "a body has at most " + std::to_string(kMaxShapes) + " shapes, this one " +
               std::to_string(body.shapes.size()));
-    body.is_static ? check_static(body, path) : check_masses(body, path);
+    if (body.is_static && body.is_kinematic)
+      add(body.where, path + ".kinematic", "a body must be either static or kinematic");
+    if (body.is_static)
+      check_static(body, path);
+    else if (body.is_kinematic)
+      check_kinematic(body, path);
+    else
+      check_masses(body, path);
   }
 
   void check_masses(const BodyDef& body, const std::string& path) {
@@ -215,12 +262,19 @@ class Validation {
       add(body.where, path + ".angular_velocity", "a static body has no angular_velocity");
   }
 
+  void check_kinematic(const BodyDef& body, const std::string& path) {
+    if (body.mass_properties.mass != 0)
+      add(body.where, path + ".mass", "a kinematic body has no mass");
+  }
+
   void check_shape(const BodyDef& body, const ShapeDef& def, const std::string& path) {
     add(body.where, path + ".shape", shape_fault(def.shape));
     check_vector(body, path + ".position", def.pose.c, "m");
     check_quaternion(body, path + ".orientation", def.pose.q);
     if (!body.is_static && std::holds_alternative<HalfSpace>(def.shape))
       add(body.where, path + ".shape", "only a static body may have a half_space");
+    if (!body.is_static && !body.is_kinematic && std::holds_alternative<Mesh>(def.shape))
+      add(body.where, path + ".shape", "only a static or kinematic body may have a mesh");
   }
 
   void check_vector(const BodyDef& body, const std::string& path, const Vec3& v,
@@ -252,8 +306,9 @@ class Validation {
     add(body.where, path + ".quadratic",
         coefficient_fault("quadratic drag", d.quadratic, "N·s²/m²"));
     add(body.where, path + ".angular", coefficient_fault("angular drag", d.angular, "N·m·s/rad"));
-    if (body.is_static && (d.linear > 0 || d.quadratic > 0 || d.angular > 0))
-      add(body.where, path, "a static body has no drag");
+    if ((body.is_static || body.is_kinematic) && (d.linear > 0 || d.quadratic > 0 || d.angular > 0))
+      add(body.where, path,
+          std::string("a ") + (body.is_static ? "static" : "kinematic") + " body has no drag");
   }
 
   std::vector<SceneFault> faults_;

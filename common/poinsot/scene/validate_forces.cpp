@@ -2,19 +2,14 @@
 
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 
 #include "poinsot/base/limits.h"
+#include "poinsot/scene/body_names.h"
 #include "poinsot/scene/fault_text.h"
 
 namespace poinsot {
 namespace {
-
-// Looking for the nearest name goes through all bodies: a scene full of misspelt names must not
-// take minutes.
-constexpr int kSuggestions = 8;
-constexpr std::size_t kLongestSuggestedName = 64;
 
 // Points nearer to each other than this, relative to how far they are from the origins that they
 // are given from, coincide: the direction between them is one of rounding.
@@ -24,9 +19,7 @@ constexpr double kMaxDuration = 1e-9 * static_cast<double>(kMaxDurationNs);  // 
 
 class ForceValidation {
  public:
-  explicit ForceValidation(const Scene& scene) : scene_(scene) {
-    for (const BodyDef& body : scene.bodies) bodies_.emplace(body.name, &body);
-  }
+  explicit ForceValidation(const Scene& scene) : scene_(scene), bodies_(scene) {}
 
   std::vector<SceneFault> run() {
     check_count("springs", scene_.springs.size(), kMaxSprings);
@@ -71,15 +64,9 @@ class ForceValidation {
 
   // The body of that name; a fault and nothing if there is none.
   const BodyDef* find(std::string_view key, const std::string& name) {
-    if (const auto found = bodies_.find(name); found != bodies_.end()) return found->second;
-    std::string what = "no body " + in_quotes(name);
-    if (name.size() <= kLongestSuggestedName && suggestions_-- > 0) {
-      std::vector<std::string_view> names;
-      for (const BodyDef& body : scene_.bodies) names.push_back(body.name);
-      what += did_you_mean(name, names);
-    }
-    add(key, std::move(what));
-    return nullptr;
+    const BodyDef* body = bodies_.find(name);
+    if (!body) add(key, bodies_.unknown(name));
+    return body;
   }
 
   // Springs ---------------------------------------------------------------------------------------
@@ -96,6 +83,10 @@ class ForceValidation {
     if (spring.rest_length)
       add("rest_length", coefficient_fault("rest_length", *spring.rest_length, "m"));
     if (!a || (!b && !spring.b.empty())) return;
+    for (const auto& [key, body] : {std::pair{"a", a}, {"b", b}})
+      if (body && body->is_kinematic)
+        add(key, "a spring to a kinematic body is not supported yet, " + in_quotes(body->name) +
+                     " is one");
     if (a == b)
       add("b", "a spring must have its ends on two bodies, both are on " + in_quotes(spring.a));
     else if (a->is_static && (!b || b->is_static))
@@ -122,8 +113,10 @@ class ForceValidation {
   // Wrenches --------------------------------------------------------------------------------------
 
   void check(const WrenchDef& wrench) {
-    if (const BodyDef* body = find("body", wrench.body); body && body->is_static)
-      add("body", "a wrench acts on a body that moves, " + in_quotes(wrench.body) + " is static");
+    const BodyDef* body = find("body", wrench.body);
+    if (body && (body->is_static || body->is_kinematic))
+      add("body", "a wrench acts on a body that forces move, " + in_quotes(wrench.body) + " is " +
+                      (body->is_static ? "static" : "kinematic"));
     check_vector("force", wrench.force, kMaxWrench, "N");
     check_vector("torque", wrench.torque, kMaxWrench, "N·m");
     if (wrench.axes > Axes::body) add("frame", "frame must be world or body");
@@ -145,10 +138,9 @@ class ForceValidation {
   inline static const std::string kNowhere;
 
   const Scene& scene_;
-  std::unordered_map<std::string_view, const BodyDef*> bodies_;
+  BodyNames bodies_;
   const std::string* where_ = &kNowhere;  // of the entry that is looked at
   std::string path_;
-  int suggestions_ = kSuggestions;
   std::vector<SceneFault> faults_;
 };
 

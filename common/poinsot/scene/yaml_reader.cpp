@@ -173,8 +173,9 @@ const YamlNode* YamlReader::required(const Fields& fields, const YamlNode& map,
 
 // Values -----------------------------------------------------------------------------------------
 
-void YamlReader::count(const YamlNode& node) {
-  if (++read_ > kMaxRead)
+void YamlReader::count(const YamlNode& node, std::size_t values) {
+  read_ += values;
+  if (read_ > kMaxRead)
     throw Error(faults_.where(node) + ": a scene must not hold more than " +
                 std::to_string(kMaxRead) + " values, aliases counted");
 }

@@ -31,6 +31,7 @@ class FaultList {
 
   explicit FaultList(std::string file) : file_(std::move(file)) {}
 
+  const std::string& file() const { return file_; }
   std::string where(const YamlNode& node) const;  // "file:line:col"
 
   // A fault at a node. `path` names the value in the scene that is thereby not to be trusted, so
@@ -84,6 +85,9 @@ class YamlReader {
                                  std::string_view unit);
   std::optional<Vec3> vector(const YamlNode& node, std::string_view what);
 
+  // Counts what was read at a node towards the most that a scene may hold; throws Error beyond it.
+  void count(const YamlNode& node, std::size_t values = 1);
+
   // The value of a required key of a map; a missing one is a fault of the map.
   const YamlNode* required(const Fields& fields, const YamlNode& map, std::string_view what,
                            std::string_view key);
@@ -108,7 +112,6 @@ class YamlReader {
                     std::span<const std::string_view> words,
                     std::span<const std::string_view> later);
   void wrong_type(const YamlNode& node, std::string_view what, std::string_view expected);
-  void count(const YamlNode& node);
 
   FaultList& faults_;
   std::size_t read_ = 0;  // values, counted again for each alias

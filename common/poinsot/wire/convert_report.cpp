@@ -9,17 +9,17 @@
 namespace poinsot {
 namespace {
 
-constexpr FrameFlag kAllFlags =
-    FrameFlag::body_quarantined | FrameFlag::inbox_full | FrameFlag::overrun | FrameFlag::stiff;
+constexpr FrameFlag kAllFlags = FrameFlag::body_quarantined | FrameFlag::inbox_full |
+                                FrameFlag::overrun | FrameFlag::stiff | FrameFlag::crowded;
 
 constexpr auto kLastMethod = static_cast<std::uint8_t>(kMethodNames.back().value);
 
-void assign(msg::v2::LayerTime& out, const Elapsed& in) {
+void assign(msg::v3::LayerTime& out, const Elapsed& in) {
   out.wall_s(in.wall_s);
   out.cpu_s(in.cpu_s);
 }
 
-Elapsed time(Checks& checks, const msg::v2::LayerTime& in, std::string_view name) {
+Elapsed time(Checks& checks, const msg::v3::LayerTime& in, std::string_view name) {
   checks.number(in.wall_s(), name);
   checks.number(in.cpu_s(), name);
   return {in.wall_s(), in.cpu_s()};
@@ -45,17 +45,23 @@ void read_methods(Checks& checks, const std::vector<std::uint8_t>& in, std::vect
 
 }  // namespace
 
-std::string to_message(const RunReport& in, msg::v2::RunStatus& out) {
+std::string to_message(const RunReport& in, msg::v3::RunStatus& out) {
   if (in.body_methods.size() > kMaxBodies)
     return "body_methods: more than " + std::to_string(kMaxBodies) + " in one report";
   out.session(in.session);
   out.epoch(in.epoch);
-  out.state(static_cast<msg::v2::RunStateKind>(in.state));
+  out.state(static_cast<msg::v3::RunStateKind>(in.state));
   out.frame_index(in.frame.frame);
   out.sim_time(in.frame.sim_time);
   out.bodies(in.frame.bodies);
   out.contacts(in.frame.contacts);
   out.quarantined(in.frame.quarantined);
+  out.islands(in.frame.islands);
+  out.restarts(in.frame.restarts);
+  out.impact_searches(in.frame.impact_searches);
+  out.impacts(in.frame.impacts);
+  out.impacts_so_far(in.frame.impacts_so_far);
+  out.asleep(in.frame.asleep);
   out.energy(in.frame.energy);
   out.energy_error(in.frame.energy_error);
   out.push_out_energy(in.frame.push_out_energy);
@@ -75,6 +81,7 @@ std::string to_message(const RunReport& in, msg::v2::RunStatus& out) {
   out.commands_accepted(in.commands_accepted);
   out.commands_refused(in.commands_refused);
   out.snapshots_dropped(in.snapshots_dropped);
+  out.events_dropped(in.events_dropped);
   assign(out.presentation_time(), in.times.presentation);
   assign(out.collision_time(), in.times.collision);
   assign(out.contact_time(), in.times.contact);
@@ -83,7 +90,7 @@ std::string to_message(const RunReport& in, msg::v2::RunStatus& out) {
   return {};
 }
 
-std::string from_message(const msg::v2::RunStatus& in, RunReport& out) {
+std::string from_message(const msg::v3::RunStatus& in, RunReport& out) {
   Checks checks;
   out.session = in.session();
   out.epoch = in.epoch();
@@ -93,6 +100,12 @@ std::string from_message(const msg::v2::RunStatus& in, RunReport& out) {
   out.frame.bodies = in.bodies();
   out.frame.contacts = in.contacts();
   out.frame.quarantined = in.quarantined();
+  out.frame.islands = in.islands();
+  out.frame.restarts = in.restarts();
+  out.frame.impact_searches = in.impact_searches();
+  out.frame.impacts = in.impacts();
+  out.frame.impacts_so_far = in.impacts_so_far();
+  out.frame.asleep = in.asleep();
   out.frame.energy = finite(checks, in.energy(), "energy");
   out.frame.energy_error = finite(checks, in.energy_error(), "energy_error");
   out.frame.push_out_energy = finite(checks, in.push_out_energy(), "push_out_energy");
@@ -111,6 +124,7 @@ std::string from_message(const msg::v2::RunStatus& in, RunReport& out) {
   out.commands_accepted = in.commands_accepted();
   out.commands_refused = in.commands_refused();
   out.snapshots_dropped = in.snapshots_dropped();
+  out.events_dropped = in.events_dropped();
   out.times.presentation = time(checks, in.presentation_time(), "presentation_time");
   out.times.collision = time(checks, in.collision_time(), "collision_time");
   out.times.contact = time(checks, in.contact_time(), "contact_time");

@@ -21,7 +21,7 @@ Pose pose_from(Checks& checks, const msg::v1::PoseValue& in, std::string_view na
   return pose;
 }
 
-// Shape → parameters. A convex shape has none.
+// Shape → parameters. Convex shapes and meshes have none.
 struct ToParameters {
   Parameters operator()(const Sphere& s) const { return {s.radius, 0, 0, 0}; }
   Parameters operator()(const Box& s) const { return {s.size.x(), s.size.y(), s.size.z(), 0}; }
@@ -35,6 +35,7 @@ struct ToParameters {
   Parameters operator()(const HalfSpace& s) const {
     return {s.normal.x(), s.normal.y(), s.normal.z(), s.offset};
   }
+  Parameters operator()(const Mesh&) const { return {}; }
 };
 
 double length(Checks& checks, double value, std::string_view name) {
@@ -47,7 +48,7 @@ Vec3 lengths(Checks& checks, const Parameters& p, std::string_view name) {
   return {length(checks, p[0], name), length(checks, p[1], name), length(checks, p[2], name)};
 }
 
-std::string put_convex(const Convex& convex, msg::v1::ShapeInfo& out) {
+std::string put_convex(const Convex& convex, msg::v2::ShapeInfo& out) {
   std::size_t indices = 0;
   for (const Convex::Face& face : convex.faces) indices += 1 + face.loop.size();
   if (convex.vertices.size() > kMaxVertices || indices > kMaxFaceIndices)
@@ -61,6 +62,20 @@ std::string put_convex(const Convex& convex, msg::v1::ShapeInfo& out) {
     for (const int corner : face.loop)
       out.face_loops().push_back(static_cast<std::uint32_t>(corner));
   }
+  return {};
+}
+
+std::string put_mesh(const Mesh& mesh, msg::v2::ShapeInfo& out) {
+  if (mesh.vertices.size() > kMaxMeshVertices || mesh.triangles.size() > kMaxTriangles)
+    return "mesh with more than " + std::to_string(kMaxMeshVertices) + " vertices or " +
+           std::to_string(kMaxTriangles) + " triangles";
+  out.vertices().resize(mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    poinsot::assign(out.vertices()[i], mesh.vertices[i]);
+  out.triangles().clear();
+  out.triangles().reserve(3 * mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles)
+    for (const int corner : triangle) out.triangles().push_back(static_cast<std::uint32_t>(corner));
   return {};
 }
 
@@ -80,7 +95,7 @@ void fit_plane(Checks& checks, const std::vector<Vec3>& vertices, Convex::Face& 
   face.offset = face.normal.dot(middle) / static_cast<double>(face.loop.size());
 }
 
-Convex convex_from(Checks& checks, const msg::v1::ShapeInfo& in) {
+Convex convex_from(Checks& checks, const msg::v2::ShapeInfo& in) {
   Convex convex;
   checks.require(in.vertices().size() >= 4 && in.vertices().size() <= kMaxVertices,
                  "number of vertices is not between 4 and " + std::to_string(kMaxVertices));
@@ -108,24 +123,47 @@ Convex convex_from(Checks& checks, const msg::v1::ShapeInfo& in) {
   return convex;
 }
 
-Shape shape_from(Checks& checks, const msg::v1::ShapeInfo& in) {
+Mesh mesh_from(Checks& checks, const msg::v2::ShapeInfo& in) {
+  Mesh mesh;
+  checks.require(in.vertices().size() <= kMaxMeshVertices, "too many vertices");
+  checks.require(!in.triangles().empty() && in.triangles().size() % 3 == 0 &&
+                     in.triangles().size() <= 3 * kMaxTriangles,
+                 "number of triangle corners is not a multiple of 3 up to " +
+                     std::to_string(3 * kMaxTriangles));
+  if (!checks.ok()) return mesh;
+  for (const msg::v1::Vector3& vertex : in.vertices()) {
+    mesh.vertices.push_back(from(vertex));
+    checks.vector(mesh.vertices.back(), "vertices");
+  }
+  for (std::size_t k = 0; k < in.triangles().size() && checks.ok(); ++k) {
+    const std::uint32_t corner = in.triangles()[k];
+    checks.require(corner < mesh.vertices.size(), "a triangle index without vertex");
+    if (k % 3 == 0) mesh.triangles.push_back({});
+    mesh.triangles.back()[k % 3] = static_cast<int>(corner);
+  }
+  return mesh;
+}
+
+Shape shape_from(Checks& checks, const msg::v2::ShapeInfo& in) {
   const Parameters& p = in.parameters();
   switch (in.kind()) {
-    case msg::v1::SHAPE_SPHERE:
+    case msg::v2::SHAPE_SPHERE:
       return Sphere{length(checks, p[0], "radius")};
-    case msg::v1::SHAPE_BOX:
+    case msg::v2::SHAPE_BOX:
       return Box{lengths(checks, p, "size")};
-    case msg::v1::SHAPE_CAPSULE:
+    case msg::v2::SHAPE_CAPSULE:
       return Capsule{length(checks, p[0], "radius"), length(checks, p[1], "length")};
-    case msg::v1::SHAPE_CYLINDER:
+    case msg::v2::SHAPE_CYLINDER:
       return Cylinder{length(checks, p[0], "radius"), length(checks, p[1], "length")};
-    case msg::v1::SHAPE_CONE:
+    case msg::v2::SHAPE_CONE:
       return Cone{length(checks, p[0], "radius"), length(checks, p[1], "length")};
-    case msg::v1::SHAPE_ELLIPSOID:
+    case msg::v2::SHAPE_ELLIPSOID:
       return Ellipsoid{lengths(checks, p, "semi-axes")};
-    case msg::v1::SHAPE_CONVEX:
+    case msg::v2::SHAPE_CONVEX:
       return convex_from(checks, in);
-    case msg::v1::SHAPE_HALF_SPACE: {
+    case msg::v2::SHAPE_MESH:
+      return mesh_from(checks, in);
+    case msg::v2::SHAPE_HALF_SPACE: {
       const HalfSpace half_space{{p[0], p[1], p[2]}, p[3]};
       checks.number(half_space.offset, "offset");
       checks.require(std::abs(half_space.normal.squaredNorm() - 1) <= kUnitSlack,
@@ -138,17 +176,22 @@ Shape shape_from(Checks& checks, const msg::v1::ShapeInfo& in) {
   return Sphere{};
 }
 
-std::string put_shapes(const std::vector<ShapeDef>& in, std::vector<msg::v1::ShapeInfo>& out) {
+std::string put_shapes(const std::vector<ShapeDef>& in, std::vector<msg::v2::ShapeInfo>& out) {
   if (in.size() > kMaxShapes) return "more than " + std::to_string(kMaxShapes) + " shapes";
   out.resize(in.size());
   for (std::size_t i = 0; i < in.size(); ++i) {
-    out[i].kind(static_cast<msg::v1::ShapeKind>(in[i].shape.index()));
+    out[i].kind(static_cast<msg::v2::ShapeKind>(in[i].shape.index()));
     out[i].parameters(std::visit(ToParameters{}, in[i].shape));
     assign(out[i].pose(), in[i].pose);
     out[i].vertices().clear();
     out[i].face_loops().clear();
+    out[i].triangles().clear();
     if (const auto* convex = std::get_if<Convex>(&in[i].shape)) {
       const std::string reason = put_convex(*convex, out[i]);
+      if (!reason.empty()) return reason;
+    }
+    if (const auto* mesh = std::get_if<Mesh>(&in[i].shape)) {
+      const std::string reason = put_mesh(*mesh, out[i]);
       if (!reason.empty()) return reason;
     }
   }
@@ -168,7 +211,7 @@ Mat3 inertia_from(Checks& checks, const std::array<double, 6>& v) {
 
 }  // namespace
 
-std::string to_message(const BodyInfo& in, msg::v1::BodyDescription& out) {
+std::string to_message(const BodyInfo& in, msg::v2::BodyDescription& out) {
   Checks checks;
   checks.text(in.name, "name", kMaxNameLength);
   out.slot(in.id.slot);
@@ -177,7 +220,9 @@ std::string to_message(const BodyInfo& in, msg::v1::BodyDescription& out) {
   out.scene_index(in.index);
   out.scene_count(in.count);
   out.name(in.name);
-  out.kind(in.is_static ? msg::v1::BODY_STATIC : msg::v1::BODY_DYNAMIC);
+  out.kind(in.is_static      ? msg::v2::BODY_STATIC
+           : in.is_kinematic ? msg::v2::BODY_KINEMATIC
+                             : msg::v2::BODY_DYNAMIC);
   out.mass(in.mass_properties.mass);
   assign(out.center_of_mass(), in.mass_properties.center_of_mass);
   out.inertia(put_inertia(in.mass_properties.J));
@@ -189,7 +234,7 @@ std::string to_message(const BodyInfo& in, msg::v1::BodyDescription& out) {
   return checks.take();
 }
 
-std::string from_message(const msg::v1::BodyDescription& in, BodyInfo& out) {
+std::string from_message(const msg::v2::BodyDescription& in, BodyInfo& out) {
   Checks checks;
   out.session = in.session();
   out.id = {in.slot(), in.generation()};
@@ -199,9 +244,11 @@ std::string from_message(const msg::v1::BodyDescription& in, BodyInfo& out) {
   checks.require(out.index < out.count, "scene_index is not below scene_count");
   out.name = in.name().c_str();
   checks.text(out.name, "name", kMaxNameLength);
-  checks.require(in.kind() == msg::v1::BODY_DYNAMIC || in.kind() == msg::v1::BODY_STATIC,
+  checks.require(in.kind() == msg::v2::BODY_DYNAMIC || in.kind() == msg::v2::BODY_STATIC ||
+                     in.kind() == msg::v2::BODY_KINEMATIC,
                  "kind " + std::to_string(static_cast<std::uint32_t>(in.kind())) + " is unknown");
-  out.is_static = in.kind() == msg::v1::BODY_STATIC;
+  out.is_static = in.kind() == msg::v2::BODY_STATIC;
+  out.is_kinematic = in.kind() == msg::v2::BODY_KINEMATIC;
   out.mass_properties.mass = in.mass();
   checks.number(in.mass(), "mass");
   checks.require(in.mass() >= 0, "mass is negative");

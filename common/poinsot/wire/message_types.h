@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "poinsot/msg/controlPubSubTypes.h"
+#include "poinsot/msg/eventsPubSubTypes.h"
 #include "poinsot/msg/posesPubSubTypes.h"
 #include "poinsot/msg/replyPubSubTypes.h"
 #include "poinsot/msg/reportPubSubTypes.h"
@@ -36,11 +37,11 @@ struct MessageType<PoseSnapshot> {
 };
 template <>
 struct MessageType<BodyInfo> {
-  using Support = SafeSupport<msg::v1::BodyDescriptionPubSubType>;
+  using Support = SafeSupport<msg::v2::BodyDescriptionPubSubType>;
 };
 template <>
 struct MessageType<RunReport> {
-  using Support = SafeSupport<msg::v2::RunStatusPubSubType>;
+  using Support = SafeSupport<msg::v3::RunStatusPubSubType>;
 };
 template <>
 struct MessageType<WrenchCommand> {
@@ -53,6 +54,10 @@ struct MessageType<RunControl> {
 template <>
 struct MessageType<Reply> {
   using Support = SafeSupport<msg::v1::CommandReplyPubSubType>;
+};
+template <>
+struct MessageType<ImpactNotice> {
+  using Support = SafeSupport<msg::v1::ImpactEventPubSubType>;
 };
 
 }  // namespace poinsot

@@ -64,5 +64,6 @@ template class Publisher<RunReport>;
 template class Publisher<WrenchCommand>;
 template class Publisher<RunControl>;
 template class Publisher<Reply>;
+template class Publisher<ImpactNotice>;
 
 }  // namespace poinsot

@@ -23,7 +23,7 @@ constexpr int kBodies = static_cast<int>(kMaxBodies);
 
 // Poses: a writer depth of 4 survives the repair of a lost fragment; the reader's second of frames
 // is what a busy program may fall behind without a gap. Commands: see the reader that keeps all.
-constexpr std::array<TopicQos, 6> kTopics = {{
+constexpr std::array<TopicQos, 7> kTopics = {{
     // topic    late joiners  writer  reader  keeps all  instances
     {"poses", false, 4, 60, false, 1},
     {"scene", true, 1, 1, false, kBodies},
@@ -31,6 +31,7 @@ constexpr std::array<TopicQos, 6> kTopics = {{
     {"wrench", false, 256, 1024, true, 1},
     {"control", false, 256, 1024, true, 1},
     {"reply", false, 1024, 1024, false, 1},
+    {"events", false, 1000, 1000, false, 1},
 }};
 
 constexpr std::uint32_t kMegabyte = 1u << 20;

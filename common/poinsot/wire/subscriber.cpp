@@ -134,11 +134,13 @@ template class Subscriber<RunReport>;
 template class Subscriber<WrenchCommand>;
 template class Subscriber<RunControl>;
 template class Subscriber<Reply>;
+template class Subscriber<ImpactNotice>;
 template void Waiter::attach(Subscriber<PoseSnapshot>&);
 template void Waiter::attach(Subscriber<BodyInfo>&);
 template void Waiter::attach(Subscriber<RunReport>&);
 template void Waiter::attach(Subscriber<WrenchCommand>&);
 template void Waiter::attach(Subscriber<RunControl>&);
 template void Waiter::attach(Subscriber<Reply>&);
+template void Waiter::attach(Subscriber<ImpactNotice>&);
 
 }  // namespace poinsot

@@ -8,6 +8,7 @@
 
 #include "poinsot/protocol/body_info.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 #include "poinsot/protocol/run_control.h"
 #include "poinsot/protocol/wrench_command.h"
@@ -28,6 +29,8 @@ template <>
 inline constexpr std::string_view kTopicName<RunControl> = "control";
 template <>
 inline constexpr std::string_view kTopicName<Reply> = "reply";
+template <>
+inline constexpr std::string_view kTopicName<ImpactNotice> = "events";
 
 inline std::string topic_name(std::string_view world, std::string_view topic) {
   return "poinsot/" + std::string(world) + "/" + std::string(topic);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "poinsot/base/check.h"
+#include "poinsot/collision/mesh_surface.h"
 
 namespace poinsot {
 namespace {
@@ -22,7 +24,7 @@ double signed_half(double half, double component) {
   return component < 0 ? -half : half;
 }
 
-Vec3 farthest(const std::vector<Vec3>& points, const Vec3& d) {
+Vec3 farthest(std::span<const Vec3> points, const Vec3& d) {
   std::size_t best = 0;
   double most = points[0].dot(d);
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -50,7 +52,13 @@ double smallest_extent(const Shape& shape) {
                          width, face.offset - farthest(s.vertices, -face.normal).dot(face.normal));
                    return width;
                  },
-                 [](const HalfSpace&) { return std::numeric_limits<double>::infinity(); }},
+                 [](const HalfSpace&) { return std::numeric_limits<double>::infinity(); },
+                 [](const Mesh& s) {
+                   Aabb box;
+                   for (const Vec3& v : s.vertices)
+                     box = {box.low.cwiseMin(v), box.high.cwiseMax(v)};
+                   return (box.high - box.low).maxCoeff();
+                 }},
       shape);
 }
 
@@ -117,6 +125,23 @@ Feature convex_face(const Convex& convex, const Vec3& d) {
   return f;
 }
 
+// The face, turned over if it is looked at from behind; from the side an edge.
+Feature triangle_feature(const Collider& collider, const Vec3& d) {
+  constexpr double kFromAside = 0.94;  // cos(20°)
+  POINSOT_ASSERT(collider.triangle >= 0);
+  const auto& c = collider.surface->corners(collider.triangle);
+  const double along = d.dot(collider.surface->normal(collider.triangle));
+  if (std::abs(along) > kFromAside) {
+    Feature f;
+    for (const std::size_t k : {0, 1, 2}) f.add(c[along > 0 ? k : 2 - k], along > 0 ? k : 2 - k);
+    return f;
+  }
+  std::size_t lowest = 0;  // the edge is across from it
+  for (const std::size_t k : {1, 2})
+    if (c[k].dot(d) < c[lowest].dot(d)) lowest = k;
+  return segment(c[(lowest + 1) % 3], c[(lowest + 2) % 3], 0, 0);
+}
+
 }  // namespace
 
 Collider::Collider(Eigen::Index body_, const Shape& shape_, const Pose& in_body_)
@@ -127,39 +152,57 @@ Collider::Collider(Eigen::Index body_, const Shape& shape_, const Pose& in_body_
       bounding_radius(poinsot::bounding_radius(shape)),
       is_curved(std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape) ||
                 std::holds_alternative<Ellipsoid>(shape)),
-      size(smallest_extent(shape)) {}
+      size(smallest_extent(shape)) {
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) surface = std::make_shared<MeshSurface>(*mesh);
+}
+
+Collider::Collider(const Collider& mesh, int triangle_)
+    : body(mesh.body),
+      shape(Mesh{}),
+      in_body(mesh.in_body),
+      core_radius(0),
+      bounding_radius(mesh.bounding_radius),
+      is_curved(false),
+      size(mesh.size),
+      surface(mesh.surface),
+      triangle(triangle_) {}
 
 Vec3 support(const Collider& collider, const Vec3& d) {
-  return std::visit(Overloaded{[](const Sphere&) -> Vec3 { return Vec3::Zero(); },
-                               [&](const Box& s) -> Vec3 {
-                                 return {signed_half(0.5 * s.size.x(), d.x()),
-                                         signed_half(0.5 * s.size.y(), d.y()),
-                                         signed_half(0.5 * s.size.z(), d.z())};
-                               },
-                               [&](const Capsule& s) -> Vec3 {
-                                 return {0, 0, signed_half(0.5 * s.length, d.z())};
-                               },
-                               [&](const Cylinder& s) -> Vec3 {
-                                 return s.radius * radial(d) +
-                                        Vec3(0, 0, signed_half(0.5 * s.length, d.z()));
-                               },
-                               [&](const Cone& s) -> Vec3 {
-                                 const Vec3 apex(0, 0, 0.5 * s.length);
-                                 const Vec3 rim = s.radius * radial(d) - apex;
-                                 return apex.dot(d) > rim.dot(d) ? apex : rim;
-                               },
-                               [&](const Ellipsoid& s) -> Vec3 {
-                                 const Vec3 scaled = s.semi_axes.cwiseProduct(d);
-                                 const double length = scaled.norm();
-                                 return length > 0 ? Vec3(s.semi_axes.cwiseProduct(scaled) / length)
-                                                   : Vec3(s.semi_axes.x(), 0, 0);
-                               },
-                               [&](const Convex& s) -> Vec3 { return farthest(s.vertices, d); },
-                               [](const HalfSpace&) -> Vec3 {
-                                 POINSOT_CHECK(!"a half-space has no support");
-                                 return Vec3::Zero();
-                               }},
-                    collider.shape);
+  return std::visit(
+      Overloaded{[](const Sphere&) -> Vec3 { return Vec3::Zero(); },
+                 [&](const Box& s) -> Vec3 {
+                   return {signed_half(0.5 * s.size.x(), d.x()),
+                           signed_half(0.5 * s.size.y(), d.y()),
+                           signed_half(0.5 * s.size.z(), d.z())};
+                 },
+                 [&](const Capsule& s) -> Vec3 {
+                   return {0, 0, signed_half(0.5 * s.length, d.z())};
+                 },
+                 [&](const Cylinder& s) -> Vec3 {
+                   return s.radius * radial(d) + Vec3(0, 0, signed_half(0.5 * s.length, d.z()));
+                 },
+                 [&](const Cone& s) -> Vec3 {
+                   const Vec3 apex(0, 0, 0.5 * s.length);
+                   const Vec3 rim = s.radius * radial(d) - apex;
+                   return apex.dot(d) > rim.dot(d) ? apex : rim;
+                 },
+                 [&](const Ellipsoid& s) -> Vec3 {
+                   const Vec3 scaled = s.semi_axes.cwiseProduct(d);
+                   const double length = scaled.norm();
+                   return length > 0 ? Vec3(s.semi_axes.cwiseProduct(scaled) / length)
+                                     : Vec3(s.semi_axes.x(), 0, 0);
+                 },
+                 [&](const Convex& s) -> Vec3 { return farthest(s.vertices, d); },
+                 [](const HalfSpace&) -> Vec3 {
+                   POINSOT_CHECK(!"a half-space has no support");
+                   return Vec3::Zero();
+                 },
+                 [&](const Mesh& s) -> Vec3 {
+                   return collider.triangle < 0
+                              ? farthest(s.vertices, d)
+                              : farthest(collider.surface->corners(collider.triangle), d);
+                 }},
+      collider.shape);
 }
 
 Aabb bounds(const Collider& collider, const Pose& pose) {
@@ -167,6 +210,12 @@ Aabb bounds(const Collider& collider, const Pose& pose) {
   if (const auto* box = std::get_if<Box>(&collider.shape)) {
     const Vec3 reach = R.cwiseAbs() * (0.5 * box->size);
     return {pose.c - reach, pose.c + reach};
+  }
+  if (collider.surface && collider.triangle < 0) {  // too many vertices to look at each
+    const auto& root = collider.surface->bvh().root();
+    const Vec3 middle = pose.c + R * (0.5 * (root.low + root.high));
+    const Vec3 reach = R.cwiseAbs() * (0.5 * (root.high - root.low));
+    return {middle - reach, middle + reach};
   }
   Aabb aabb;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -201,7 +250,8 @@ Feature support_feature(const Collider& collider, const Vec3& d) {
                  },
                  [&](const Ellipsoid&) { return point(support(collider, d)); },
                  [&](const Convex& s) { return convex_face(s, d); },
-                 [](const HalfSpace&) { return Feature{}; }},
+                 [](const HalfSpace&) { return Feature{}; },
+                 [&](const Mesh&) { return triangle_feature(collider, d); }},
       collider.shape);
 }
 

@@ -2,13 +2,14 @@
 //
 // A collider's frame S is the shape's own. Rounded shapes are a core and a radius: a sphere is a
 // point, a capsule a segment, both swept by a ball. Queries run on cores, so rounding costs
-// nothing.
+// nothing. A mesh is a surface of triangles; each of them is a collider too, a flat convex core.
 
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "poinsot/math/pose.h"
@@ -16,8 +17,12 @@
 
 namespace poinsot {
 
+class MeshSurface;
+
 struct Collider {
   Collider(Eigen::Index body, const Shape& shape, const Pose& in_body);
+  // One triangle of a mesh; its shape is an empty mesh. Does not allocate.
+  Collider(const Collider& mesh, int triangle);
 
   Eigen::Index body;  // column
   Shape shape;
@@ -25,7 +30,10 @@ struct Collider {
   double core_radius;      // [m] swept about the core; 0 for shapes with edges
   double bounding_radius;  // [m] about S's origin; infinite for a half-space
   bool is_curved;          // the core is: it has a cylinder's, cone's or ellipsoid's surface
-  double size;             // [m] length that tolerances are relative to: the smallest extent
+  double size;             // [m] length that tolerances are relative to: the smallest extent, of a
+                           // mesh and its triangles its largest
+  std::shared_ptr<const MeshSurface> surface;  // of a mesh and its triangles
+  int triangle = -1;                           // of a mesh: which; −1: not one of them
 };
 
 // The point of the core farthest along d (any length), in S [m]. Not for half-spaces.

@@ -1,25 +1,36 @@
-// The collision layer: a frame in which nothing can meet is left to the simulation layer as a
-// whole; otherwise equal sub-steps, and inside each contacts are found and resolved and the
-// simulation layer integrates.
+// The collision layer: what may meet before the frame ends is gone through island by island, from
+// impact to impact and, where contacts last, in sub-steps; all else is left to the simulation
+// layer as a whole.
 
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "poinsot/base/hash.h"
 #include "poinsot/base/stopwatch.h"
+#include "poinsot/collision/impact_event.h"
 #include "poinsot/simulation/diagnostics.h"
 #include "poinsot/simulation/simulation_layer.h"
 
 namespace poinsot {
 
-// What the layer knows of the last sub-step, and sums since the start.
+// What the layer knows of the last frame, and sums since the start.
 struct CollisionReport {
-  std::uint32_t contacts = 0;  // points with a pushing impulse
-  double max_penetration = 0;  // [m] in the last sub-step, after push-out
+  std::uint32_t contacts = 0;  // points with a pushing impulse in the last sub-step
+  double max_penetration = 0;  // [m] there, after push-out
   double impact_loss = 0;      // [J] kinetic energy taken out by impacts so far
   double push_out_energy = 0;  // [J] added by the removal of penetration so far
+
+  // Of the last frame.
+  std::uint32_t islands = 0;   // that were gone through
+  std::uint32_t restarts = 0;  // times that islands were gone through again, merged
+  std::uint32_t searches = 0;  // for impacts
+  std::uint64_t search_poses = 0, search_gaps = 0;  // evaluations that they took
+  std::uint32_t impacts = 0;                        // located
+  bool crowded = false;      // more impacts in an island than it pays to locate
+  std::uint32_t asleep = 0;  // bodies
 };
 
 struct EnergyBalance {
@@ -28,9 +39,16 @@ struct EnergyBalance {
 };
 
 struct CollisionTimes {
-  Elapsed collision;   // finding contacts
-  Elapsed contact;     // resolving them
-  Elapsed simulation;  // integrating
+  Elapsed collision;   // finding what meets, and when
+  Elapsed contact;     // resolving contacts
+  Elapsed simulation;  // integrating what nothing meets
+};
+
+// How CPU time is told from wall time while frames are short.
+struct CpuShare {
+  unsigned frames = 0;
+  double last_wall_s = 0;   // [s] of the last frame
+  double cpu_per_wall = 1;  // as last measured
 };
 
 class CollisionLayer {
@@ -40,14 +58,18 @@ class CollisionLayer {
   CollisionLayer(CollisionLayer&&) noexcept;
   CollisionLayer& operator=(CollisionLayer&&) noexcept;
 
-  // Afterwards time() == t_end exactly.
+  // Afterwards time() == t_end exactly. Throws as SimulationLayer::begin() does.
   void advance_to(double t_end);
 
-  double time() const { return simulation_.world().time; }
-  World& world() { return simulation_.world(); }
-  const World& world() const { return simulation_.world(); }
-  const SimulationLayer& simulation() const { return simulation_; }
+  double time() const { return world().time; }
+  // To change something: what sleeps is looked at again.
+  World& world();
+  const World& world() const;
+  const SimulationLayer& simulation() const;
   const CollisionReport& report() const { return report_; }
+  // Located in the last frame, island by island and in order of time there.
+  std::span<const ImpactEvent> impacts() const { return impacts_; }
+  bool is_asleep(Eigen::Index i) const;
 
   // Energy [J], and the relative energy error since the start [-]: what the energy changed by
   // beyond the work of held wrenches, the work and loss at contacts and the push-out, over the
@@ -63,22 +85,18 @@ class CollisionLayer {
   const CollisionTimes& times() const { return times_; }
 
  private:
-  bool may_meet(double h);
-  void advance_apart(double t_end);
-  void advance_substep(double t_end);
-  void integrate(double t_end);
   void rebase_energy();
   double expected_energy() const;  // [J] from the start, the work and the losses
 
-  struct Contacts;  // the set and its resolution; keeps geometry out of the layers above
-  SimulationLayer simulation_;
-  std::unique_ptr<Contacts> contacts_;
-  double longest_step_;  // [s]
+  struct Frame;  // keeps geometry out of the layers above
+  std::unique_ptr<Frame> frame_;
   CollisionReport report_;
+  std::vector<ImpactEvent> impacts_;
   EnergyScale energy_scale_;
   double start_energy_;  // [J]
   std::uint32_t quarantined_ = 0;
   CollisionTimes times_;
+  CpuShare cpu_share_;
 };
 
 // Pairs of bodies that overlap by more than the scene's tolerance, as faults that name both and the

@@ -144,7 +144,11 @@ void clip_to_edge(const Facing& facing, PointSet& set) {
 void build_manifold(const ConvexPair& pair, const Witness& witness, double margin,
                     Manifold& manifold) {
   manifold.clear();
-  if (witness.gap > margin) return;
+  if (witness.gap <= margin) gather_points(pair, witness, margin, true).reduce_into(manifold);
+}
+
+PointSet gather_points(const ConvexPair& pair, const Witness& witness, double margin,
+                       bool keep_witness) {
   const double same_gap = kSameGap * std::min(pair.a.size, pair.b.size);
   const Facing facing(pair, witness.normal, margin);
   PointSet set(facing.normal, same_gap);
@@ -154,11 +158,12 @@ void build_manifold(const ConvexPair& pair, const Witness& witness, double margi
     clip_to_edge(facing, set);
   }
   // What is clipped may leave out the deepest point: a rim between two corners of its octagon.
-  if (set.count() == 0 || witness.gap < set.least_gap() - same_gap) {
+  if (keep_witness && witness.gap <= margin &&
+      (set.count() == 0 || witness.gap < set.least_gap() - same_gap)) {
     const double aside = 0.5 * (pair.b.core_radius - pair.a.core_radius);
     set.add(0.5 * (witness.on_a + witness.on_b) + aside * facing.normal, witness.gap);
   }
-  set.reduce_into(manifold);
+  return set;
 }
 
 Choice choose_points(std::span<const Candidate> candidates, double same_gap) {

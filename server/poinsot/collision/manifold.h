@@ -58,6 +58,12 @@ struct Witness {
 void build_manifold(const ConvexPair& pair, const Witness& witness, double margin,
                     Manifold& manifold);
 
+class PointSet;
+// The points of such a manifold before they are reduced. Without `keep_witness` only what features
+// that face each other have in common.
+PointSet gather_points(const ConvexPair& pair, const Witness& witness, double margin,
+                       bool keep_witness);
+
 inline constexpr double kSameGap = 1e-7;  // [-] of the smaller body: gaps that count as equal
 
 // A candidate for a manifold: its place in the contact plane, in any two perpendicular axes, and
@@ -88,6 +94,9 @@ class PointSet {
            std::uint32_t feature = kNearestFeature);  // when full, the shallowest gives way
   int count() const { return count_; }
   double least_gap() const;
+  const Vec3& normal() const { return normal_; }
+  const Vec3& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  double gap(int i) const { return candidates_[static_cast<std::size_t>(i)].gap; }
   void reduce_into(Manifold& manifold) const;
 
  private:

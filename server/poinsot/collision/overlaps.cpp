@@ -6,8 +6,9 @@
 
 #include "poinsot/collision/broad_phase.h"
 #include "poinsot/collision/collision_layer.h"
-#include "poinsot/collision/contact_set.h"
+#include "poinsot/collision/collision_state.h"
 #include "poinsot/collision/proximity.h"
+#include "poinsot/scene/pair_rules.h"
 
 namespace poinsot {
 namespace {
@@ -22,23 +23,23 @@ std::string depth_in_words(double depth) {
 
 std::vector<SceneFault> find_overlaps(const Scene& scene) {
   const std::vector<Collider> colliders = make_colliders(scene);
-  std::vector<bool> moves;
   std::vector<Pose> poses;
-  std::vector<Aabb> boxes(colliders.size());
+  BroadPhase broad_phase(colliders);
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     const BodyDef& body = scene.bodies[static_cast<std::size_t>(colliders[i].body)];
-    moves.push_back(!body.is_static);
     const Pose of_center{body.pose * body.mass_properties.center_of_mass, body.pose.q};
     poses.push_back(of_center * colliders[i].in_body);
-    if (!std::isinf(colliders[i].size)) boxes[i] = bounds(colliders[i], poses[i]);
+    const auto k = static_cast<int>(i);
+    broad_phase.set_moves(k, !body.is_static && !body.is_kinematic);
+    if (!std::isinf(colliders[i].size)) broad_phase.set(k, bounds(colliders[i], poses[i]));
   }
 
   // The deepest of each pair of bodies.
   std::map<std::pair<Eigen::Index, Eigen::Index>, double> depths;
-  BroadPhase broad_phase(colliders, moves);
-  const std::vector<double> reach(colliders.size(), 0.0);
-  for (const auto& [i, j] : broad_phase.pairs(boxes, reach)) {
+  const PairRules rules(scene);
+  for (const auto& [i, j] : broad_phase.pairs()) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    if (!rules.collide(colliders[a].body, colliders[b].body)) continue;
     const double depth = -find_gap(colliders[a], poses[a], colliders[b], poses[b]).value;
     if (depth <= scene.collision.overlap * std::min(colliders[a].size, colliders[b].size)) continue;
     double& deepest = depths[{colliders[a].body, colliders[b].body}];

@@ -4,7 +4,8 @@
 //   B  box_box.h          separating axes and clipping
 //   G  gjk.h, epa.h       distance or penetration of cores, then clipping
 //   H  half_space.h       closed forms
-//   -  never meets: half-spaces belong to static bodies only
+//   M  mesh_pairs.h       a convex shape against the triangles near it
+//   -  never meets: half-spaces and meshes belong to bodies that no force moves
 
 #pragma once
 
@@ -19,15 +20,16 @@ inline constexpr std::size_t kShapeCount = kShapeNames.size();
 
 // Upper triangle: rows are the first shape of the pair, which never comes later than the second.
 inline constexpr std::array<std::array<char, kShapeCount + 1>, kShapeCount> kPairTable = {{
-    //            sphere box capsule cylinder cone ellipsoid convex half_space
-    /* sphere     */ {"FFFFGGGH"},
-    /* box        */ {" BGGGGGH"},
-    /* capsule    */ {"  GGGGGH"},
-    /* cylinder   */ {"   GGGGH"},
-    /* cone       */ {"    GGGH"},
-    /* ellipsoid  */ {"     GGH"},
-    /* convex     */ {"      GH"},
-    /* half_space */ {"       -"},
+    //            sphere box capsule cylinder cone ellipsoid convex half_space mesh
+    /* sphere     */ {"FFFFGGGHM"},
+    /* box        */ {" BGGGGGHM"},
+    /* capsule    */ {"  GGGGGHM"},
+    /* cylinder   */ {"   GGGGHM"},
+    /* cone       */ {"    GGGHM"},
+    /* ellipsoid  */ {"     GGHM"},
+    /* convex     */ {"      GHM"},
+    /* half_space */ {"       --"},
+    /* mesh       */ {"        -"},
 }};
 
 }  // namespace poinsot

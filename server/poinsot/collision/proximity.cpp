@@ -9,6 +9,7 @@
 #include "poinsot/collision/box_box.h"
 #include "poinsot/collision/epa.h"
 #include "poinsot/collision/half_space.h"
+#include "poinsot/collision/mesh_pairs.h"
 #include "poinsot/collision/pair_table.h"
 #include "poinsot/collision/proximity_fcl.h"
 
@@ -111,6 +112,14 @@ Gap gap_of_cores(const Collider& a, const Pose& pose_a, const Collider& b, const
           pose_a * Vec3(near.on_b + b.core_radius * n)};
 }
 
+void deepest_mesh_manifold(const Collider& a, const Pose& pose_a, const Collider& b,
+                           const Pose& pose_b, double margin, Manifold& manifold) {
+  thread_local std::vector<Manifold> all;
+  mesh_manifolds(a, pose_a, b, pose_b, margin, all);
+  manifold.clear();
+  if (!all.empty()) manifold = all.front();
+}
+
 }  // namespace
 
 void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
@@ -138,9 +147,24 @@ void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, con
       shape_on_half_space(a, plane.normal, plane.offset, margin, manifold);
       return to_world(pose_a, manifold);
     }
+    case 'M':
+      return deepest_mesh_manifold(a, pose_a, b, pose_b, margin, manifold);
     default:
       POINSOT_CHECK(!"this pair never meets");
   }
+}
+
+void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                    double margin, std::vector<Manifold>& manifolds) {
+  if (is_swapped(a, b)) {
+    find_manifolds(b, pose_b, a, pose_a, margin, manifolds);
+    for (Manifold& manifold : manifolds) manifold.normal = -manifold.normal;
+    return;
+  }
+  if (kernel(a, b) == 'M') return mesh_manifolds(a, pose_a, b, pose_b, margin, manifolds);
+  manifolds.resize(1);
+  find_manifold(a, pose_a, b, pose_b, margin, manifolds.front());
+  if (manifolds.front().count == 0) manifolds.clear();
 }
 
 Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
@@ -157,9 +181,10 @@ Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pos
     std::swap(gap.point_a, gap.point_b);
     return gap;
   }
-  const Gap gap = kernel(a, b) == 'H'
-                      ? gap_to_half_space(a, pose_a, std::get<HalfSpace>(b.shape), pose_b)
-                      : gap_of_cores(a, pose_a, b, pose_b, hint);
+  const char by = kernel(a, b);
+  const Gap gap = by == 'H'   ? gap_to_half_space(a, pose_a, std::get<HalfSpace>(b.shape), pose_b)
+                  : by == 'M' ? gap_to_mesh(a, pose_a, b, pose_b)
+                              : gap_of_cores(a, pose_a, b, pose_b, hint);
   if (hint) *hint = {gap.normal, true};
   return gap;
 }

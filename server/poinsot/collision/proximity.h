@@ -2,10 +2,12 @@
 //
 // Poses that come in are finite and unit (the simulation layer sees to that). Should one not be, or
 // the shapes be farther apart than a distance can be squared, nothing is known: no points, and a
-// gap between −∞ and +∞. Supported pairs are in pair_table.h; two half-spaces are the only pair
-// that is not, and bodies that cannot move never meet.
+// gap between −∞ and +∞. Supported pairs are in pair_table.h: all but those of half-spaces and
+// meshes among themselves, whose bodies no force moves, so that they never meet.
 
 #pragma once
+
+#include <vector>
 
 #include "poinsot/collision/manifold.h"
 
@@ -16,10 +18,16 @@ namespace poinsot {
 void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                    double margin, Manifold& manifold);
 
+// The same for pairs that may touch along several planes, as with a mesh: one manifold for each,
+// the deepest first; replaces `manifolds`.
+void find_manifolds(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                    double margin, std::vector<Manifold>& manifolds);
+
 // Signed distance of two shapes with a certificate: lower ≤ true gap ≤ value, up to the rounding of
 // the coordinates. Both bounds can be checked without trust: the points lie on the surfaces, and
 // the slab between the supports along the normal is `lower` wide, which also holds for penetrating
-// shapes.
+// shapes. A mesh is not convex and has no such slab; where it is penetrated, both bounds are the
+// depth that mesh_pairs.h defines.
 struct Gap {
   double value = 0;             // [m] upper bound; negative: penetration depth
   double lower = 0;             // [m] lower bound of the true gap

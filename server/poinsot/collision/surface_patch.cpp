@@ -66,6 +66,7 @@ void SurfacePatch::start_corners(std::span<const Vec3> points, std::span<const d
 
 // The whole face, if the corners lie on it.
 void SurfacePatch::start_polygon(const Feature& face, const Mat3& R) {
+  if (face.count < 3) return;
   face_ = face;
   for (int i = 0; i < face.count; ++i)
     face_.corners[static_cast<std::size_t>(i)] = center_ + R * face[i];

@@ -150,7 +150,7 @@ void HeldWrenches::clear(const WrenchCommand& command, std::optional<Eigen::Inde
 }
 
 void HeldWrenches::apply_to(World& world, std::uint64_t frame) {
-  if (!changed_ && frame < next_change_) return;
+  if (!changes(frame)) return;
   std::erase_if(held_, [&](const Held& held) { return held.last_frame < frame; });
   if (changed_) std::sort(held_.begin(), held_.end(), by_key);
   std::fill(world.held.begin(), world.held.end(), HeldWrench{});

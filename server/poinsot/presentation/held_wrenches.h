@@ -36,6 +36,9 @@ class HeldWrenches {
   void accept(std::span<const WrenchCommand> commands, const World& world, std::uint64_t next,
               std::uint32_t epoch, std::vector<Reply>& replies);
 
+  // Whether what is held in `frame` differs from what was last applied; if not, apply_to() has
+  // nothing to do.
+  bool changes(std::uint64_t frame) const { return changed_ || frame >= next_change_; }
   // Sets world.held for frame `frame`, and forgets wrenches that have ended.
   void apply_to(World& world, std::uint64_t frame);
 

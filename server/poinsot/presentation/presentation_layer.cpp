@@ -5,16 +5,16 @@
 
 #include "poinsot/base/check.h"
 #include "poinsot/presentation/scene_wrenches.h"
-#include "poinsot/presentation/state_hash.h"
 
 namespace poinsot {
 
 PresentationLayer::PresentationLayer(Scene scene)
     : scene_(std::move(scene)), collision_(scene_), held_(frame_rate()) {
   for (Eigen::Index i = 0; i < world().size(); ++i)
-    if (world().moves(i)) columns_.push_back(i);
+    if (world().moves(i) || world().is_kinematic(i)) columns_.push_back(i);
   snapshot_.bodies.resize(columns_.size());
   body_methods_.resize(columns_.size(), Method::none);
+  captured_asleep_.resize(columns_.size(), 0);
   hold_scene_wrenches();
   capture();
 }
@@ -28,7 +28,7 @@ void PresentationLayer::accept(std::span<const WrenchCommand> commands,
 
 void PresentationLayer::advance_frame() {
   ++frame_;
-  held_.apply_to(collision_.world(), frame_);
+  if (held_.changes(frame_)) held_.apply_to(collision_.world(), frame_);
   collision_.advance_to(static_cast<double>(frame_) / frame_rate());  // all physics is in here
   capture();
 }
@@ -38,6 +38,9 @@ void PresentationLayer::reset() {
   collision_ = CollisionLayer(scene_);
   held_ = HeldWrenches(frame_rate());
   frame_ = 0;
+  impacts_so_far_ = 0;
+  captured_asleep_.assign(columns_.size(), 0);
+  digests_ = {};
   ++epoch_;
   hold_scene_wrenches();
   capture();
@@ -54,6 +57,9 @@ void PresentationLayer::capture() {
   const Stopwatch::Lap lap(times_.presentation);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];
+    const std::uint8_t asleep = collision_.is_asleep(i) ? 1 : 0;
+    if (asleep != 0 && captured_asleep_[k] != 0) continue;
+    captured_asleep_[k] = asleep;
     const Pose pose = body_pose(world(), i);
     snapshot_.bodies[k] = {world().ids[static_cast<std::size_t>(i)], pose.c, pose.q,
                            linear_velocity(world(), i), angular_velocity(world(), i)};
@@ -61,8 +67,9 @@ void PresentationLayer::capture() {
   snapshot_.epoch = epoch_;
   snapshot_.frame = frame_;
   snapshot_.sim_time_ns = std::llround(static_cast<double>(frame_) * 1e9 / frame_rate());
-  snapshot_.state_hash = state_hash(frame_, collision_, held_);
+  snapshot_.state_hash = state_hash(frame_, collision_, held_, digests_);
 
+  capture_impacts();
   const CollisionReport& collision = collision_.report();
   const SimulationLayer& simulation = collision_.simulation();
   const std::uint32_t quarantined = simulation.quarantined();
@@ -73,6 +80,12 @@ void PresentationLayer::capture() {
              .bodies = static_cast<std::uint32_t>(columns_.size()),
              .contacts = collision.contacts,
              .quarantined = quarantined,
+             .islands = collision.islands,
+             .restarts = collision.restarts,
+             .impact_searches = collision.searches,
+             .impacts = collision.impacts,
+             .impacts_so_far = impacts_so_far_,
+             .asleep = collision.asleep,
              .energy = balance.energy,
              .energy_error = balance.error,
              .push_out_energy = collision.push_out_energy,
@@ -81,12 +94,30 @@ void PresentationLayer::capture() {
              .orientation_error = error.orientation,
              .momentum_error = simulation.momentum_error(),
              .flags = (quarantined > 0 ? FrameFlag::body_quarantined : FrameFlag::none) |
-                      (simulation.is_stiff() ? FrameFlag::stiff : FrameFlag::none)};
+                      (simulation.is_stiff() ? FrameFlag::stiff : FrameFlag::none) |
+                      (collision.crowded ? FrameFlag::crowded : FrameFlag::none)};
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Method method = simulation.methods()[static_cast<std::size_t>(columns_[k])];
     body_methods_[k] = method;
     ++report_.methods[static_cast<std::size_t>(method)];
   }
+}
+
+// Columns become handles: an outsider knows bodies by no other name.
+void PresentationLayer::capture_impacts() {
+  impacts_.clear();
+  impacts_so_far_ += collision_.report().impacts;
+  const auto id = [this](Eigen::Index i) { return world().ids[static_cast<std::size_t>(i)]; };
+  for (const ImpactEvent& event : collision_.impacts())
+    impacts_.push_back(
+        {.epoch = epoch_,
+         .frame = frame_,
+         .time = event.time,
+         .a = {id(event.a), event.v_a_before, event.w_a_before, event.v_a_after, event.w_a_after},
+         .b = {id(event.b), event.v_b_before, event.w_b_before, event.v_b_after, event.w_b_after},
+         .point = event.point,
+         .normal = event.normal,
+         .impulse = event.impulse});
 }
 
 LayerTimes PresentationLayer::times() const {

@@ -10,7 +10,9 @@
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/collision/collision_layer.h"
 #include "poinsot/presentation/held_wrenches.h"
+#include "poinsot/presentation/state_hash.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 
 namespace poinsot {
@@ -43,11 +45,14 @@ class PresentationLayer {
   const FrameReport& report() const { return report_; }
   // What moved each dynamic body in the last frame, in the order of the snapshot.
   std::span<const Method> body_methods() const { return body_methods_; }
+  // Located in the last frame. session is left to whoever sends them.
+  std::span<const ImpactNotice> impacts() const { return impacts_; }
   LayerTimes times() const;  // since construction, over all epochs
 
  private:
   void hold_scene_wrenches();
   void capture();
+  void capture_impacts();
 
   Scene scene_;
   CollisionLayer collision_;
@@ -57,8 +62,13 @@ class PresentationLayer {
   PoseSnapshot snapshot_;
   FrameReport report_;
   std::vector<Method> body_methods_;
+  std::vector<ImpactNotice> impacts_;
+  std::uint64_t impacts_so_far_ = 0;   // in this epoch
   std::vector<Eigen::Index> columns_;  // of the snapshot's bodies
-  LayerTimes times_;                   // own time, and the inner layers' before the last reset
+  // Of bodies that sleep, captured and hashed once; 0: not yet.
+  std::vector<std::uint8_t> captured_asleep_;  // per body of the snapshot
+  BodyDigests digests_;
+  LayerTimes times_;  // own time, and the inner layers' before the last reset
 };
 
 }  // namespace poinsot

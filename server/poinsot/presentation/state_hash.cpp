@@ -1,14 +1,29 @@
 #include "poinsot/presentation/state_hash.h"
 
 namespace poinsot {
+namespace {
+
+std::uint64_t digest_of(const World& world, Eigen::Index i) {
+  Hash64 hash;
+  hash.add(std::span(world.y.col(i).data(), 13));
+  hash.add(static_cast<std::uint64_t>(world.motion[static_cast<std::size_t>(i)]));
+  return hash.value() | 1;
+}
+
+}  // namespace
 
 std::uint64_t state_hash(std::uint64_t frame, const CollisionLayer& collision,
-                         const HeldWrenches& held) {
+                         const HeldWrenches& held, BodyDigests& digests) {
   const World& world = collision.world();
+  digests.value.resize(static_cast<std::size_t>(world.size()), 0);
   Hash64 hash;
   hash.add(frame);
-  hash.add(std::span(world.y.data(), static_cast<std::size_t>(world.y.size())));
-  for (const Motion motion : world.motion) hash.add(static_cast<std::uint64_t>(motion));
+  for (Eigen::Index i = 0; i < world.size(); ++i) {
+    std::uint64_t& digest = digests.value[static_cast<std::size_t>(i)];
+    if (digest == 0 || !collision.is_asleep(i)) digest = digest_of(world, i);
+    hash.add(digest);
+    if (!collision.is_asleep(i)) digest = 0;
+  }
   held.hash_into(hash, frame);
   collision.hash_into(hash);
   return hash.value();

@@ -1,17 +1,22 @@
-// The fingerprint of a run: equal hashes mean equal states and equal continuations, bit for bit.
+// The fingerprint of all that the frames to come depend on: the state, what is held, contacts,
+// flights. Equal runs have equal hashes.
 
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "poinsot/collision/collision_layer.h"
 #include "poinsot/presentation/held_wrenches.h"
 
 namespace poinsot {
 
-// Of the end of frame `frame`: the frame, every body's state and motion, the wrenches that are held
-// on, and what contacts carry over.
+// Of the state of each body, in column order; those of sleeping bodies are formed once.
+struct BodyDigests {
+  std::vector<std::uint64_t> value;  // 0: to be formed
+};
+
 std::uint64_t state_hash(std::uint64_t frame, const CollisionLayer& collision,
-                         const HeldWrenches& held);
+                         const HeldWrenches& held, BodyDigests& digests);
 
 }  // namespace poinsot

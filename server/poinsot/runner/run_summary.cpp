@@ -43,6 +43,9 @@ std::string to_text(const RunSummary& s) {
                 t.publishing.cpu_s);
   const std::string methods = methods_text(s.last);
   text += print("bodies        %u", s.last.bodies) + (methods.empty() ? "" : ": " + methods) + '\n';
+  text += print("impacts       %llu; last frame: %u islands, %u restarts, %u searches, %u asleep\n",
+                static_cast<unsigned long long>(s.last.impacts_so_far), s.last.islands,
+                s.last.restarts, s.last.impact_searches, s.last.asleep);
   text += print("energy error  %.3g\n", s.last.energy_error);
   text += print("momentum      error %.3g\n", s.last.momentum_error);
   text += print("local error   %.3g m, %.3g rad (last frame)\n", s.last.position_error,
@@ -68,6 +71,12 @@ std::string to_json(const RunSummary& s) {
       "\"orientation_error\": %.9g, ",
       s.last.bodies, s.last.energy_error, s.last.momentum_error, s.last.position_error,
       s.last.orientation_error);
+  text += print(
+      "\"impacts\": %llu, \"islands\": %u, \"restarts\": %u, \"impact_searches\": %u, \"asleep\": "
+      "%u, \"crowded\": %s, ",
+      static_cast<unsigned long long>(s.last.impacts_so_far), s.last.islands, s.last.restarts,
+      s.last.impact_searches, s.last.asleep,
+      has_flag(s.last.flags, FrameFlag::crowded) ? "true" : "false");
   text += "\"methods\": {" + methods + "}, ";
   return text +
          print("\"state_hash\": \"%016llx\"}\n", static_cast<unsigned long long>(s.state_hash));

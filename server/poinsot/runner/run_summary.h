@@ -27,7 +27,8 @@ std::string to_text(const RunSummary& summary);
 
 // One line, one object: frames, sim_time [s], wall_s, cpu_s {presentation, collision, contact,
 // simulation, publishing}, bodies, energy_error, momentum_error, position_error [m],
-// orientation_error [rad], methods {name: bodies}, state_hash (16 hexadecimal digits).
+// orientation_error [rad], impacts (of the last epoch), islands, restarts, impact_searches, asleep,
+// crowded (of the last frame), methods {name: bodies}, state_hash (16 hexadecimal digits).
 std::string to_json(const RunSummary& summary);
 
 }  // namespace poinsot

@@ -13,6 +13,7 @@ std::vector<BodyInfo> body_infos(const Scene& scene, const World& world, std::ui
                      .count = static_cast<std::uint32_t>(scene.bodies.size()),
                      .name = body.name,
                      .is_static = body.is_static,
+                     .is_kinematic = body.is_kinematic,
                      .mass_properties = body.mass_properties,
                      .pose = body.pose,
                      .material = body.material,

@@ -84,6 +84,7 @@ void FrameLoop::advance() {
 }
 
 void FrameLoop::hand_over() {
+  outbox_.push(layer_.impacts());
   outbox_.push(layer_.snapshot());
   if (options_.each_frame) options_.each_frame(layer_);
 }

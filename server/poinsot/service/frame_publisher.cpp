@@ -27,12 +27,14 @@ FramePublisher::FramePublisher(Participant& participant, const std::string& worl
       poses_topic_(participant, world),
       report_topic_(participant, world),
       reply_topic_(participant, world),
+      events_topic_(participant, world),
       logger_(std::move(logger)),
       failures_(std::chrono::seconds(1)) {
   // These change places with the outbox's: the same room on both sides, or the loop would allocate.
   snapshot_.bodies.reserve(scene_.size());
   report_.body_methods.reserve(scene_.size());
   replies_.reserve(Outbox::kReplies);
+  impacts_.reserve(Outbox::kImpacts);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -54,10 +56,12 @@ void FramePublisher::send(bool quiet) {
   Elapsed lap;
   {
     const Stopwatch::Lap timer(lap);
+    send_impacts();
     send_poses(quiet);
     if (outbox_.take(report_)) {
       report_.session = session_;
       report_.snapshots_dropped = outbox_.snapshots_dropped();
+      report_.events_dropped = outbox_.impacts_dropped();
       report_.times.publishing = elapsed();
       write(report_topic_, report_);
     }
@@ -77,6 +81,15 @@ void FramePublisher::send_poses(bool quiet) {
   for (; outbox_.take(snapshot_); joined_ = false) write_poses();
   // Again, if nothing newer comes soon; while frames come, other readers would get one twice.
   if (quiet && std::exchange(joined_, false) && snapshot_.epoch != 0) write_poses();
+}
+
+void FramePublisher::send_impacts() {
+  outbox_.set_impacts_wanted(events_topic_.readers() > 0);
+  if (!outbox_.take(impacts_)) return;
+  for (ImpactNotice& impact : impacts_) {
+    impact.session = session_;
+    write(events_topic_, impact);
+  }
 }
 
 void FramePublisher::write_poses() {

@@ -2,7 +2,8 @@
 // whatever the outbox holds. However slow a reader is, only this thread would notice.
 //
 // Poses are written while somebody reads them. A reader that joins while nothing moves gets the
-// newest frame at once, so that a paused run can be looked at.
+// newest frame at once, so that a paused run can be looked at. Impacts are taken from the loop
+// while somebody reads them.
 
 #pragma once
 
@@ -37,6 +38,7 @@ class FramePublisher {
   void send(bool quiet);
   void send_poses(bool quiet);
   void write_poses();
+  void send_impacts();
   template <class Message>
   void write(Publisher<Message>& topic, const Message& message);
 
@@ -47,9 +49,11 @@ class FramePublisher {
   Publisher<PoseSnapshot> poses_topic_;
   Publisher<RunReport> report_topic_;
   Publisher<Reply> reply_topic_;
+  Publisher<ImpactNotice> events_topic_;
 
   PoseSnapshot snapshot_;  // the newest taken
   std::vector<Reply> replies_;
+  std::vector<ImpactNotice> impacts_;
   RunReport report_;
   int readers_ = 0;      // of poses, at the last look
   bool joined_ = false;  // since the newest snapshot was written

@@ -1,5 +1,6 @@
 #include "poinsot/service/outbox.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace poinsot {
@@ -7,6 +8,7 @@ namespace poinsot {
 Outbox::Outbox(std::size_t bodies) {
   for (PoseSnapshot& snapshot : ring_) snapshot.bodies.reserve(bodies);
   replies_.reserve(kReplies);
+  impacts_.reserve(kImpacts);
   report_.body_methods.reserve(bodies);
 }
 
@@ -25,6 +27,18 @@ void Outbox::push(const PoseSnapshot& snapshot) {
     ++count_;
   }
   if (wake) filled_.notify_one();
+}
+
+void Outbox::push(std::span<const ImpactNotice> impacts) {
+  if (impacts.empty() || !impacts_wanted_) return;
+  {
+    const std::lock_guard lock(mutex_);
+    const std::size_t room = std::min(kImpacts - impacts_.size(), impacts.size());
+    impacts_dropped_ += impacts.size() - room;
+    impacts = impacts.first(room);
+    impacts_.insert(impacts_.end(), impacts.begin(), impacts.end());
+  }
+  filled_.notify_one();
 }
 
 void Outbox::push(Reply reply) {
@@ -49,7 +63,7 @@ void Outbox::push(const RunReport& report) {
 }
 
 bool Outbox::anything_to_send() const {
-  return (poses_wanted_ && count_ > 0) || !replies_.empty() || report_is_new_;
+  return (poses_wanted_ && count_ > 0) || !replies_.empty() || !impacts_.empty() || report_is_new_;
 }
 
 bool Outbox::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout) {
@@ -79,9 +93,20 @@ bool Outbox::take(RunReport& report) {
   return std::exchange(report_is_new_, false);
 }
 
+bool Outbox::take(std::vector<ImpactNotice>& impacts) {
+  impacts.clear();
+  const std::lock_guard lock(mutex_);
+  std::swap(impacts, impacts_);
+  return !impacts.empty();
+}
+
 void Outbox::set_poses_wanted(bool wanted) {
   const std::lock_guard lock(mutex_);
   poses_wanted_ = wanted;
+}
+
+void Outbox::set_impacts_wanted(bool wanted) {
+  impacts_wanted_ = wanted;
 }
 
 RunReport Outbox::newest_report() const {
@@ -92,6 +117,11 @@ RunReport Outbox::newest_report() const {
 std::uint64_t Outbox::snapshots_dropped() const {
   const std::lock_guard lock(mutex_);
   return snapshots_dropped_;
+}
+
+std::uint64_t Outbox::impacts_dropped() const {
+  const std::lock_guard lock(mutex_);
+  return impacts_dropped_;
 }
 
 std::uint64_t Outbox::replies_dropped() const {

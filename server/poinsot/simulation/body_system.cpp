@@ -103,9 +103,16 @@ void gather(const StateArray& y, Eigen::Index i, SystemState& s, Eigen::Index j)
   s.block<4, 1>(13, j).setZero();
 }
 
+Eigen::Matrix<double, 13, 1> world_column(const SystemState& s, Eigen::Index j) {
+  Eigen::Matrix<double, 13, 1> column;
+  column.head<10>() = s.block<10, 1>(0, j);
+  const Quat q(column[6], column[3], column[4], column[5]);
+  column.tail<3>() = q * Vec3(s.block<3, 1>(10, j));
+  return column;
+}
+
 void scatter(const SystemState& s, Eigen::Index j, StateArray& y, Eigen::Index i) {
-  y.block<10, 1>(0, i) = s.block<10, 1>(0, j);
-  angular_momentum(y, i) = orientation(y, i) * Vec3(s.block<3, 1>(10, j));
+  y.col(i) = world_column(s, j);
 }
 
 }  // namespace poinsot

@@ -70,5 +70,6 @@ void normalize_orientations(SystemState& y);
 // Between column i of the world and column j of a system: m = Rᵀ L, W = 0, H = 0, and back.
 void gather(const StateArray& y, Eigen::Index i, SystemState& s, Eigen::Index j);
 void scatter(const SystemState& s, Eigen::Index j, StateArray& y, Eigen::Index i);
+Eigen::Matrix<double, 13, 1> world_column(const SystemState& s, Eigen::Index j);
 
 }  // namespace poinsot

@@ -8,6 +8,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,10 @@ struct StepMemory {
   double last_error = 1;  // of the last accepted step, over the tolerance
   int stiff_steps = 0;    // in a row
   bool stiff = false;     // for good: integrate it implicitly
+
+  // Of the fixed-step methods.
+  LocalError step_error;       // of one step, when it was last estimated
+  std::uint32_t advances = 0;  // so far
 };
 
 // The largest error of a step of h against its scale; infinite if anything is not finite.

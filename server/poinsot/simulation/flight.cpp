@@ -4,14 +4,19 @@
 
 namespace poinsot {
 
-Flight::Flight(const World& world, Eigen::Index i)
-    : start_(world.time),
+Flight::Flight(const World& world, Eigen::Index i, double start)
+    : start_(start),
       c_(position(world.y, i)),
       P_(momentum(world.y, i)),
-      v_(linear_velocity(world, i)),
+      v_(poinsot::linear_velocity(world, i)),
+      L_(poinsot::angular_momentum(world.y, i)),
       q_(orientation(world.y, i)),
-      rotation_(world.principal_axes[static_cast<std::size_t>(i)], orientation(world.y, i),
-                angular_momentum(world.y, i)) {}
+      rotation_(world.principal_axes[static_cast<std::size_t>(i)], orientation(world.y, i), L_) {}
+
+Pose Flight::pose(const World& world, double t) const {
+  const double dt = t - start_;
+  return {c_ + dt * (v_ + (0.5 * dt) * world.gravity), rotation_.at(dt)};
+}
 
 void Flight::evaluate(const World& world, Eigen::Index i, double t, StateArray& y) const {
   const double dt = t - start_;

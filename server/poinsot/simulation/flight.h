@@ -20,11 +20,20 @@ class Flight {
  public:
   Flight() = default;
 
-  // From the body's present state and time on.
-  Flight(const World& world, Eigen::Index i);
+  // From the body's present state and the world's time on.
+  Flight(const World& world, Eigen::Index i) : Flight(world, i, world.time) {}
+  // From its present state on, which it has at time `start` [s].
+  Flight(const World& world, Eigen::Index i, double start);
 
   // The state at time t: column i of y. L stays as it is, to the bit.
   void evaluate(const World& world, Eigen::Index i, double t, StateArray& y) const;
+
+  // The same in parts: pose of the centre of mass [m], velocity [m/s], L [kg·m²/s]; in W.
+  Pose pose(const World& world, double t) const;
+  Vec3 linear_velocity(const World& world, double t) const {
+    return v_ + (t - start_) * world.gravity;
+  }
+  const Vec3& angular_momentum() const { return L_; }
 
   // Largest error of the state at time t.
   LocalError error(const World& world, double t) const;
@@ -37,6 +46,7 @@ class Flight {
   Vec3 c_;            // [m]
   Vec3 P_;            // [kg·m/s]
   Vec3 v_;            // [m/s]
+  Vec3 L_;            // [kg·m²/s]
   Quat q_;
   TorqueFree rotation_;
 };

@@ -88,14 +88,18 @@ struct Push {
   double force = 0, torque = 0;  // [N] [N·m] at any orientation
 };
 
-Push largest_push(const World& world, Eigen::Index i) {
+Push largest_push(const World& world, Eigen::Index i, std::span<const Wrench> contacts) {
   const auto k = static_cast<std::size_t>(i);
   const HeldWrench& held = world.held[k];
   Push push{world.mass[k] * world.gravity.norm(), 0};
+  if (!contacts.empty()) {
+    push.force += contacts[k].force.norm();
+    push.torque += contacts[k].torque.norm();
+  }
   if (held.is_zero()) return push;
   push.force += held.in_W.force.norm() + held.in_B.force.norm();
   // The axial vector of a matrix is at most √2 times as long as the matrix.
-  push.torque =
+  push.torque +=
       held.in_W.torque.norm() + held.in_B.torque.norm() + std::sqrt(2.0) * held.moment.norm();
   return push;
 }
@@ -109,12 +113,13 @@ double rotational_energy(const World& world, Eigen::Index i) {
 }
 
 // S of a system, and what can be added to it in h.
-double coupled_energy(const World& world, const BodySystem& system, double h) {
+double coupled_energy(const World& world, const BodySystem& system, double h,
+                      std::span<const Wrench> contacts) {
   double energy = spring_energy(world, system), growth = 0;
   for (const Eigen::Index j : system.columns) {
     const double inv_mass = world.inv_mass[static_cast<std::size_t>(j)];
     if (!world.moves(j)) continue;
-    const Push push = largest_push(world, j);
+    const Push push = largest_push(world, j, contacts);
     energy += rotational_energy(world, j) + 0.5 * inv_mass * momentum(world.y, j).squaredNorm();
     growth +=
         push.force * push.force * inv_mass + push.torque * push.torque / smallest_moment(world, j);
@@ -122,12 +127,13 @@ double coupled_energy(const World& world, const BodySystem& system, double h) {
   return (std::sqrt(2 * std::max(energy, 0.0)) + h * std::sqrt(growth)) * kRounding;
 }
 
-SpeedBound lone_bound(const World& world, Eigen::Index i, double h) {
+SpeedBound lone_bound(const World& world, Eigen::Index i, double h,
+                      std::span<const Wrench> contacts) {
   const auto k = static_cast<std::size_t>(i);
-  const Push push = largest_push(world, i);
+  const Push push = largest_push(world, i, contacts);
   const double v = linear_velocity(world, i).norm() + h * push.force * world.inv_mass[k];
   const Vec3 L = angular_momentum(world.y, i);
-  if (world.held[k].is_zero() && world.drag.empty())
+  if (push.torque == 0 && world.drag.empty())
     return {v * kRounding, rotation_bound(world.principal_axes[k], rotation(world, i), L).omega};
   const double smallest = smallest_moment(world, i);
   const double by_energy = std::sqrt(2 * rotational_energy(world, i) / smallest);
@@ -135,18 +141,76 @@ SpeedBound lone_bound(const World& world, Eigen::Index i, double h) {
           (std::min(by_energy, L.norm() / smallest) + h * push.torque / smallest) * kRounding};
 }
 
+// Force and torque that springs can exert on a body of a system with energy S²/2 [N] [N·m]:
+// k s² ≤ S² for each, and a damper closes no faster than its ends move.
+Push largest_pull(const World& world, const BodySystem& system, int place, double s) {
+  Push pull;
+  const auto end_speed = [&](int index, const Vec3& p) {
+    if (index == SpringLink::kWorld) return 0.0;
+    const Eigen::Index j = system.columns[static_cast<std::size_t>(index)];
+    if (!world.moves(j)) return 0.0;
+    return s * (std::sqrt(world.inv_mass[static_cast<std::size_t>(j)]) +
+                p.norm() / std::sqrt(smallest_moment(world, j)));
+  };
+  for (const int index : system.springs_of[static_cast<std::size_t>(place)]) {
+    const SpringLink& spring = system.springs[static_cast<std::size_t>(index)];
+    const double closing = end_speed(spring.a, spring.p_a) + end_speed(spring.b, spring.p_b);
+    const double force = std::sqrt(spring.stiffness) * s + spring.damping * closing;
+    pull.force += force;
+    pull.torque += force * (spring.a == place ? spring.p_a : spring.p_b).norm();
+  }
+  return pull;
+}
+
 }  // namespace
+
+DrivenBound driven_bound(const World& world, Eigen::Index i, std::span<const Wrench> contacts,
+                         double h) {
+  const auto k = static_cast<std::size_t>(i);
+  const HeldWrench& held = world.held[k];
+  const double inv_mass = world.inv_mass[k];
+  DrivenBound bound;
+  Push pull;
+  if (world.systems.empty() || world.system_of[k] == World::kLone) {
+    bound.speed = lone_bound(world, i, h, contacts);
+  } else {
+    const BodySystem& system = world.systems[static_cast<std::size_t>(world.system_of[k])];
+    const double s = coupled_energy(world, system, h, contacts);
+    bound.speed = {s * std::sqrt(inv_mass), s / std::sqrt(smallest_moment(world, i))};
+    pull = largest_pull(world, system, world.place_of[k], s);
+  }
+  Vec3 force = held.in_W.force;
+  if (!contacts.empty()) force += contacts[k].force;
+  bound.acceleration = world.gravity + inv_mass * force;
+  double rest = held.in_B.force.norm() + pull.force, torque = pull.torque;
+  torque += largest_push(world, i, contacts).torque;
+  if (!world.drag.empty()) {
+    const DragDef& drag = world.drag[k];
+    rest += (drag.linear + drag.quadratic * bound.speed.v) * bound.speed.v;
+    torque += drag.angular * bound.speed.omega;
+  }
+  bound.slack = inv_mass * rest * kRounding;
+  // Euler's equations, with |ω × J ω| ≤ (J₃ − J₁) ω².
+  const PrincipalAxes& body = world.principal_axes[k];
+  const auto smallest = static_cast<double>(body.moments[0]);
+  const auto largest = static_cast<double>(body.moments[2]);
+  const double omega = bound.speed.omega;
+  bound.rotation.omega = bound.rotation.perp = omega;
+  bound.rotation.alpha = (torque + (largest - smallest) * omega * omega) / smallest * kRounding;
+  return bound;
+}
 
 void SpeedBounds::update(const World& world, double h) {
   h_ = h;
   energies_.clear();
   for (const BodySystem& system : world.systems)
-    energies_.push_back(coupled_energy(world, system, h));
+    energies_.push_back(coupled_energy(world, system, h, {}));
 }
 
 SpeedBound SpeedBounds::of(const World& world, Eigen::Index i) const {
   const auto k = static_cast<std::size_t>(i);
-  if (world.systems.empty() || world.system_of[k] == World::kLone) return lone_bound(world, i, h_);
+  if (world.systems.empty() || world.system_of[k] == World::kLone)
+    return lone_bound(world, i, h_, {});
   const double s = energies_[static_cast<std::size_t>(world.system_of[k])];
   return {s * std::sqrt(world.inv_mass[k]), s / std::sqrt(smallest_moment(world, i))};
 }

@@ -19,6 +19,7 @@
 
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "poinsot/math/principal_axes.h"
@@ -54,6 +55,17 @@ struct SpeedBound {
   double v = 0;      // [m/s] of the centre of mass
   double omega = 0;  // [rad/s]
 };
+
+// Bounds for a body on which something acts, for the next h. `contacts` [N, N·m] per body, constant
+// in W about c; empty: none act.
+struct DrivenBound {
+  SpeedBound speed;
+  Vec3 acceleration = Vec3::Zero();  // [m/s²] the part that is constant
+  double slack = 0;                  // [m/s²] of the rest
+  RotationBound rotation;
+};
+DrivenBound driven_bound(const World& world, Eigen::Index i, std::span<const Wrench> contacts,
+                         double h);
 
 // Speed bounds of all bodies for the next h, unless a contact acts. They hold for the motion
 // itself: an integrator that gains energy (explicit_euler on a stiff spring) may leave them.

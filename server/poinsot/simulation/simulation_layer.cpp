@@ -12,13 +12,6 @@ namespace {
 
 // A coordinate beyond this is no physics any more; its square is still finite.
 constexpr double kLargest = 1e100;
-// The series stop at rounding; a pair that stands in for them is kept close to it.
-constexpr double kRounding = 1e-14, kStandIn = 1e-12, kDefaultTolerance = 1e-8;
-// An implicit method of order 4 would need a thousand steps a frame for more.
-constexpr double kImplicit = 1e-9;
-constexpr int kMostSeries = 64, kMostSteps = 20000;  // per advance
-// An estimate of the error of fixed steps costs three of them: it is taken now and then.
-constexpr std::uint32_t kEstimateEvery = 16;
 
 // False for NaN as well, and for a quaternion that overflowed while it was made unit.
 bool is_sound(const StateArray& y, Eigen::Index i) {
@@ -38,137 +31,191 @@ bool same_column(const StateArray& a, const StateArray& b, Eigen::Index i) {
   return std::memcmp(a.col(i).data(), b.col(i).data(), 13 * sizeof(double)) == 0;
 }
 
-double tolerance_of(const SimulationDef& def) {
-  if (def.tolerance > 0) return def.tolerance;
-  const bool series =
-      def.integrator == IntegratorKind::exact || def.integrator == IntegratorKind::taylor;
-  return series ? kRounding : kDefaultTolerance;
+}  // namespace
+
+void Tally::add(const Tally& later) {
+  work += later.work;
+  error += later.error;
+  mismatch += later.mismatch;
+  largest_momentum = std::max(largest_momentum, later.largest_momentum);
+  quarantined += later.quarantined;
+  stiff |= later.stiff;
 }
 
-}  // namespace
+void Tally::add_apart(const Tally& others) {
+  work += others.work;
+  error.raise_to(others.error);
+  mismatch = std::max(mismatch, others.mismatch);
+  largest_momentum = std::max(largest_momentum, others.largest_momentum);
+  quarantined += others.quarantined;
+  stiff |= others.stiff;
+}
 
 SimulationLayer::SimulationLayer(const Scene& scene)
     : world_(scene),
-      kind_(scene.simulation.integrator),
-      longest_step_(scene.simulation.step > 0 ? scene.simulation.step
-                                              : scene.collision.contact_step),
-      tolerance_(tolerance_of(scene.simulation)),
+      integration_(scene),
       contact_wrenches_(static_cast<std::size_t>(world_.size())),
       last_good_(world_.y),
-      methods_(static_cast<std::size_t>(world_.size()), Method::none),
+      methods_(contact_wrenches_.size(), Method::none),
       driven_(methods_.size(), 0),
       memories_(methods_.size()),
-      system_memories_(world_.systems.size()),
-      lone_(1) {
-  if (kind_ == IntegratorKind::exact) flights_.resize(methods_.size());
+      system_memories_(world_.systems.size()) {
+  if (flies_free()) {
+    flights_.resize(methods_.size());
+    turning_.resize(methods_.size());
+    turning_known_.resize(methods_.size(), 0);
+  }
+  for (const BodySystem& system : world_.systems) systems_.emplace_back(system.columns.size());
+  for (Eigen::Index i = 0; i < world_.size(); ++i) all_.push_back(i);
+  own_.emplace_back(world_);
+}
+
+SimulationWorker::SimulationWorker(const World& world) : lone(1) {
   std::size_t bodies = 1, springs = 0;
-  for (const BodySystem& system : world_.systems) {
-    systems_.emplace_back(system.columns.size());
+  for (const BodySystem& system : world.systems) {
+    systems.emplace_back(system.columns.size());
     bodies = std::max(bodies, system.columns.size());
     springs = std::max(springs, system.springs.size());
   }
-  taylor_.prepare(bodies, springs);
+  taylor.prepare(bodies, springs);
 }
 
-SimulationLayer::Workspace::Workspace(std::size_t n)
-    : state(17, static_cast<Eigen::Index>(n)), bodies(n), rates(n) {
-  embedded.prepare(state.cols());
-  fixed.prepare(state.cols());
-}
-
-void SimulationLayer::advance_to(double t_end) {
-  check(t_end);
-  const double duration = t_end - world_.time;
-  advance_error_ = {};
-  advance_mismatch_ = 0;
-  if (estimates_steps()) step_error_ = {};
-  for (Eigen::Index i = 0; i < world_.size(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (!world_.moves(i)) {
-      methods_[k] = Method::none;
-    } else if (world_.systems.empty() || world_.system_of[k] == World::kLone) {
-      if (kind_ == IntegratorKind::exact && driven_[k] == 0)
-        fly(i, t_end);
-      else
-        integrate({std::span(&i, 1), {}, lone_, memories_[k]}, duration);
-    }
-  }
-  for (std::size_t s = 0; s < world_.systems.size(); ++s)
-    integrate(
-        {world_.systems[s].columns, world_.systems[s].springs, systems_[s], system_memories_[s]},
-        duration);
-  forced_error_ += advance_error_;
-  momentum_mismatch_ += advance_mismatch_;
-  ++advances_;
-  freeze_unsound();
-  if (in_contact_) std::fill(contact_wrenches_.begin(), contact_wrenches_.end(), Wrench{});
-  in_contact_ = false;
-  last_good_ = world_.y;
-  world_.time = t_end;
-}
-
-bool SimulationLayer::estimates_steps() const {
-  return !is_adaptive(kind_) && advances_ % kEstimateEvery == 0;
-}
-
-void SimulationLayer::check(double t_end) {
+void SimulationLayer::begin(double t_end) {
   if (!std::isfinite(t_end)) throw Error("advance_to: the time must be finite");
   if (t_end < world_.time)
     throw Error("advance_to: time runs backwards: it is " + std::to_string(world_.time) +
                 " s, asked for " + std::to_string(t_end) + " s");
   constexpr double kMostFixedSteps = 1e9;  // more would not end, and not fit a count
-  if (!is_adaptive(kind_) && t_end - world_.time > kMostFixedSteps * longest_step_)
+  if (!is_adaptive(integration_.kind()) &&
+      t_end - world_.time > kMostFixedSteps * integration_.longest_step())
     throw Error("advance_to: " + std::to_string(t_end - world_.time) +
-                " s would take more than 1e9 steps of " + std::to_string(longest_step_) + " s");
+                " s would take more than 1e9 steps of " +
+                std::to_string(integration_.longest_step()) + " s");
   for (std::size_t k = 0; k < driven_.size(); ++k) {
-    driven_[k] = is_driven(static_cast<Eigen::Index>(k)) ? 1 : 0;
+    driven_[k] = is_pushed(static_cast<Eigen::Index>(k)) ? 1 : 0;
     if (driven_[k] != 0 && !is_finite(world_.held[k]))
       throw Error("body '" + world_.names[k] + "': the held wrench is not finite");
   }
 }
 
-// Whether anything but gravity acts on a body without springs.
-bool SimulationLayer::is_driven(Eigen::Index i) const {
+void SimulationLayer::advance_to(double t_end) {
+  begin(t_end);
+  Tally tally;
+  advance(all_, world_.time, t_end, true, own_.front(), tally);
+  commit(t_end, tally);
+}
+
+void SimulationLayer::commit(double t_end, const Tally& tally) {
+  frame_error_ = tally.error;
+  total_.add(tally);
+  world_.time = t_end;
+}
+
+// Whether anything but gravity and contacts acts on a body.
+bool SimulationLayer::is_pushed(Eigen::Index i) const {
   const auto k = static_cast<std::size_t>(i);
-  if (!world_.held[k].is_zero()) return true;
-  if (in_contact_ && !is_zero(contact_wrenches_[k])) return true;
+  if (in_system(i) || !world_.held[k].is_zero()) return true;
   if (world_.drag.empty()) return false;
   const DragDef& drag = world_.drag[k];
   return drag.linear > 0 || drag.quadratic > 0 || drag.angular > 0;
 }
 
-// The flight goes on as long as nobody else has touched the body's state.
-void SimulationLayer::fly(Eigen::Index i, double t_end) {
+bool SimulationLayer::in_system(Eigen::Index i) const {
+  return !world_.systems.empty() && world_.system_of[static_cast<std::size_t>(i)] != World::kLone;
+}
+
+SimulationLayer::Group SimulationLayer::system_group(int s, Workspace& work, StepMemory& memory) {
+  const BodySystem& system = world_.systems[static_cast<std::size_t>(s)];
+  return {system.columns, system.springs, work, memory};
+}
+
+void SimulationLayer::advance(std::span<const Eigen::Index> bodies, double from, double to,
+                              bool in_contact, SimulationWorker& worker, Tally& tally) {
+  Advance advance{worker, in_contact, {}, 0};
+  for (const Eigen::Index i : bodies) {
+    const auto k = static_cast<std::size_t>(i);
+    if (in_system(i)) {
+      const auto s = static_cast<std::size_t>(world_.system_of[k]);
+      if (world_.systems[s].columns[0] == i)
+        integrate(system_group(world_.system_of[k], systems_[s], system_memories_[s]), to - from,
+                  advance, tally);
+    } else if (world_.is_kinematic(i)) {
+      const Pose pose = kinematic_course(i, to).at(to);
+      position(world_.y, i) = pose.c;
+      orientation(world_.y, i) = pose.q;
+      methods_[k] = Method::none;
+    } else if (!world_.moves(i)) {
+      methods_[k] = Method::none;
+    } else if (flies_free() && driven_[k] == 0 && !(in_contact && !is_zero(contact_wrenches_[k]))) {
+      fly(i, from, to, tally);
+    } else {
+      integrate({std::span(&i, 1), {}, worker.lone, memories_[k]}, to - from, advance, tally);
+    }
+  }
+  tally.error += advance.error;
+  tally.mismatch += advance.mismatch;
+  freeze_unsound(bodies, tally);
+  for (const Eigen::Index i : bodies) {
+    if (in_contact) contact_wrenches_[static_cast<std::size_t>(i)] = Wrench{};
+    last_good_.col(i) = world_.y.col(i);
+  }
+}
+
+bool SimulationLayer::is_in_flight(Eigen::Index i) const {
+  return methods_[static_cast<std::size_t>(i)] == Method::flight &&
+         same_column(world_.y, last_good_, i);
+}
+
+void SimulationLayer::begin_flight(Eigen::Index i, double from) {
+  if (is_in_flight(i)) return;
   const auto k = static_cast<std::size_t>(i);
-  if (methods_[k] != Method::flight || !same_column(world_.y, last_good_, i)) {
-    flights_[k] = Flight(world_, i);
-    methods_[k] = Method::flight;
-    largest_momentum_ = std::max(largest_momentum_, angular_momentum(world_.y, i).norm());
+  flights_[k] = Flight(world_, i, from);
+  turning_known_[k] = 0;
+  methods_[k] = Method::flight;
+  last_good_.col(i) = world_.y.col(i);
+}
+
+const RotationBound& SimulationLayer::turning(Eigen::Index i, double from) {
+  const auto k = static_cast<std::size_t>(i);
+  begin_flight(i, from);
+  if (turning_known_[k] == 0)
+    turning_[k] = rotation_bound(world_.principal_axes[k], rotation(world_, i),
+                                 angular_momentum(world_.y, i));
+  turning_known_[k] = 1;
+  return turning_[k];
+}
+
+// The flight goes on as long as nobody else has touched the body's state.
+void SimulationLayer::fly(Eigen::Index i, double from, double to, Tally& tally) {
+  const auto k = static_cast<std::size_t>(i);
+  if (!is_in_flight(i)) {
+    begin_flight(i, from);
+    tally.largest_momentum = std::max(tally.largest_momentum, angular_momentum(world_.y, i).norm());
   }
-  flights_[k].evaluate(world_, i, t_end, world_.y);
+  flights_[k].evaluate(world_, i, to, world_.y);
 }
 
-void SimulationLayer::load(const Group& group) const {
-  for (std::size_t j = 0; j < group.columns.size(); ++j)
-    gather(world_.y, group.columns[j], group.work.state, static_cast<Eigen::Index>(j));
-}
-
-void SimulationLayer::integrate(const Group& group, double duration) {
-  const std::size_t n = group.columns.size();
-  for (std::size_t j = 0; j < n; ++j) {
+void SimulationLayer::load(const Group& group, bool in_contact) const {
+  for (std::size_t j = 0; j < group.columns.size(); ++j) {
     const Eigen::Index i = group.columns[j];
+    gather(world_.y, i, group.work.state, static_cast<Eigen::Index>(j));
     group.work.bodies[j] = system_body(
-        world_, i, in_contact_ ? contact_wrenches_[static_cast<std::size_t>(i)] : Wrench{});
+        world_, i, in_contact ? contact_wrenches_[static_cast<std::size_t>(i)] : Wrench{});
   }
+}
+
+void SimulationLayer::integrate(const Group& group, double duration, Advance& advance,
+                                Tally& tally) {
+  load(group, advance.in_contact);
   const System system{group.work.bodies, group.springs, group.work.rates};
-  load(group);
-  const LocalError others = advance_error_;
-  advance_error_ = {};
-  const Method method = integrate_state(group, system, duration);
-  advance_error_.raise_to(others);
+  LocalError error;
+  const Method method = integration_.advance(system, group.work, advance.worker.taylor,
+                                             group.memory, duration, error);
+  advance.error.raise_to(error);
+  tally.stiff |= group.memory.stiff;
 
   const SystemState& state = group.work.state;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < group.columns.size(); ++k) {
     const Eigen::Index i = group.columns[k], j = static_cast<Eigen::Index>(k);
     methods_[static_cast<std::size_t>(i)] = method;
     const Vec3 expected = Vec3(angular_momentum(world_.y, i)) + state.block<3, 1>(14, j);
@@ -181,91 +228,107 @@ void SimulationLayer::integrate(const Group& group, double duration) {
     }
     if (!is_sound(world_.y, i)) continue;  // it will be frozen
     const Vec3 L = angular_momentum(world_.y, i);
-    advance_mismatch_ = std::max(advance_mismatch_, (L - expected).norm());
-    largest_momentum_ = std::max(largest_momentum_, L.norm());
-    work_ += state(13, j);
+    advance.mismatch = std::max(advance.mismatch, (L - expected).norm());
+    tally.largest_momentum = std::max(tally.largest_momentum, L.norm());
+    tally.work += state(13, j);
     // However small the last terms of a series: the state itself is rounded.
     constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-    advance_error_.raise_to({kEpsilon * position(world_.y, i).norm(), 4 * kEpsilon});
+    advance.error.raise_to({kEpsilon * position(world_.y, i).norm(), 4 * kEpsilon});
   }
 }
 
-Method SimulationLayer::integrate_state(const Group& group, const System& system, double duration) {
-  SystemState& state = group.work.state;
-  switch (kind_) {
-    case IntegratorKind::exact:
-    case IntegratorKind::taylor:
-      if (!group.memory.stiff &&
-          taylor_.advance(system, state, duration, tolerance_, kMostSeries, advance_error_))
-        return Method::taylor;
-      load(group);
-      advance_error_ = {};
-      return by_tolerance(kDop853, Method::dop853, std::max(tolerance_, kStandIn), group, system,
-                          duration);
-    case IntegratorKind::dop853:
-      return by_tolerance(kDop853, Method::dop853, tolerance_, group, system, duration);
-    case IntegratorKind::dopri5:
-      return by_tolerance(kDopri5, Method::dopri5, tolerance_, group, system, duration);
-    default:
-      return by_fixed_steps(group, system, duration);
-  }
-}
-
-Method SimulationLayer::by_tolerance(const EmbeddedPair& pair, Method method, double tolerance,
-                                     const Group& group, const System& system, double duration) {
-  SystemState& state = group.work.state;
-  double done = 0;
-  if (!group.memory.stiff &&
-      group.work.embedded.advance(pair, system, state, duration, tolerance, kMostSteps,
-                                  group.memory, advance_error_, done))
-    return method;
-  group.memory.stiff = stiff_ = true;
-  group.work.rosenbrock.prepare(system.size());
-  if (group.work.rosenbrock.advance(system, state, duration, std::max(tolerance, kImplicit),
-                                    kMostSteps, group.memory, advance_error_, done))
-    return Method::rosenbrock;
-  advance_error_ = {};
-  // Nothing can follow this motion: the body is frozen where it was.
-  state.setConstant(std::numeric_limits<double>::quiet_NaN());
-  return method;
-}
-
-Method SimulationLayer::by_fixed_steps(const Group& group, const System& system, double duration) {
-  SystemState& state = group.work.state;
-  const int steps = step_count(duration, longest_step_);
-  const double h = duration / steps;
-  if (estimates_steps()) step_error_.raise_to(group.work.fixed.compare(kind_, system, state, h));
-  advance_error_ = {steps * step_error_.position, steps * step_error_.orientation};
-  for (int s = 0; s < steps; ++s) group.work.fixed.step(kind_, system, state, h);
-  switch (kind_) {
-    case IntegratorKind::semi_implicit_euler:
-      return Method::semi_implicit_euler;
-    case IntegratorKind::explicit_euler:
-      return Method::explicit_euler;
-    default:
-      return Method::rk4;
-  }
-}
-
-void SimulationLayer::freeze_unsound() {
-  for (Eigen::Index i = 0; i < world_.size(); ++i) {
+void SimulationLayer::freeze_unsound(std::span<const Eigen::Index> bodies, Tally& tally) {
+  for (const Eigen::Index i : bodies) {
     if (is_sound(world_.y, i)) continue;
     world_.y.col(i) = last_good_.col(i);
     world_.freeze(i);
     contact_wrenches_[static_cast<std::size_t>(i)] = Wrench{};
-    ++quarantined_;
+    ++tally.quarantined;
   }
 }
 
+Course SimulationLayer::course(Eigen::Index i, double from, double to, bool in_contact,
+                               SimulationWorker& worker) {
+  const auto k = static_cast<std::size_t>(i);
+  const Pose pose{position(world_.y, i), orientation(world_.y, i)};
+  if (world_.is_kinematic(i)) return kinematic_course(i, to);
+  if (!world_.moves(i)) return Course::still(pose, from, to);
+  const bool pushed = in_contact && !is_zero(contact_wrenches_[k]);
+  if (flies_free() && driven_[k] == 0 && !pushed) {
+    const RotationBound& bound = turning(i, from);
+    return Course::flight(world_, i, flights_[k], bound, from, to);
+  }
+  const DrivenBound bound = driven_bound(
+      world_, i,
+      in_contact ? std::span<const Wrench>(contact_wrenches_) : std::span<const Wrench>(),
+      to - from);
+  return Course::driven(world_, i, {this, &worker, from, in_contact}, bound.acceleration,
+                        bound.slack, bound.rotation, from, to);
+}
+
+Course SimulationLayer::kinematic_course(Eigen::Index i, double to) const {
+  const World::Kinematic& kinematic = world_.kinematic[static_cast<std::size_t>(i)];
+  return Course::uniform(kinematic.start, kinematic.velocity, 0, to);
+}
+
+Course::Column SimulationLayer::preview(Eigen::Index i, const Course::Preview& course, double t) {
+  if (t <= course.from) return world_.y.col(i);
+  const auto k = static_cast<std::size_t>(i);
+  SimulationWorker& worker = *course.worker;
+  const bool coupled = in_system(i);
+  const auto s = coupled ? static_cast<std::size_t>(world_.system_of[k]) : 0;
+  StepMemory memory = coupled ? system_memories_[s] : memories_[k];  // left as it is
+  const Group group = coupled ? system_group(world_.system_of[k], worker.systems[s], memory)
+                              : Group{std::span(&i, 1), {}, worker.lone, memory};
+  load(group, course.in_contact);
+  const System system{group.work.bodies, group.springs, group.work.rates};
+  LocalError error;
+  integration_.advance(system, group.work, worker.taylor, memory, t - course.from, error);
+  return world_column(group.work.state, coupled ? world_.place_of[k] : 0);
+}
+
+SimulationLayer::Backup SimulationLayer::backup(Eigen::Index i) const {
+  const auto k = static_cast<std::size_t>(i);
+  Backup b;
+  b.y = world_.y.col(i);
+  b.last_good = last_good_.col(i);
+  b.method = methods_[k];
+  b.motion = world_.motion[k];
+  b.memory = memories_[k];
+  if (in_system(i))
+    b.system_memory = system_memories_[static_cast<std::size_t>(world_.system_of[k])];
+  if (!flies_free()) return b;
+  b.flight = flights_[k];
+  b.turning = turning_[k];
+  b.turning_known = turning_known_[k] != 0;
+  return b;
+}
+
+void SimulationLayer::restore(Eigen::Index i, const Backup& b) {
+  const auto k = static_cast<std::size_t>(i);
+  if (world_.motion[k] == Motion::frozen && b.motion == Motion::dynamic) world_.thaw(i);
+  world_.y.col(i) = b.y;
+  last_good_.col(i) = b.last_good;
+  methods_[k] = b.method;
+  memories_[k] = b.memory;
+  contact_wrenches_[k] = Wrench{};
+  if (in_system(i))
+    system_memories_[static_cast<std::size_t>(world_.system_of[k])] = b.system_memory;
+  if (!flies_free()) return;
+  flights_[k] = b.flight;
+  turning_[k] = b.turning;
+  turning_known_[k] = b.turning_known ? 1 : 0;
+}
+
 LocalError SimulationLayer::local_error() const {
-  LocalError error = forced_error_;
+  LocalError error = frame_error_;
   for (std::size_t k = 0; k < flights_.size(); ++k)
     if (methods_[k] == Method::flight) error.raise_to(flights_[k].error(world_, world_.time));
   return error;
 }
 
 double SimulationLayer::momentum_error() const {
-  return largest_momentum_ > 0 ? momentum_mismatch_ / largest_momentum_ : 0;
+  return total_.largest_momentum > 0 ? total_.mismatch / total_.largest_momentum : 0;
 }
 
 void SimulationLayer::hash_into(Hash64& hash) const {

@@ -1,10 +1,13 @@
-// The simulation layer: moves the bodies from now to a given time under gravity, held wrenches,
-// drag, springs and the contact wrenches of this sub-step. It does not know that shapes exist.
+// The simulation layer: moves bodies from one time to another under gravity, held wrenches, drag,
+// springs and contact wrenches. It does not know that shapes exist.
 //
 // Each body is moved by what it needs. With integrator `exact`: not at all if it does not move, by
-// its closed form while it flies (flight.h), by Taylor series while something acts on it
-// (taylor.h), by DOP853 where the series does not exist, implicitly where springs are stiff
-// (rosenbrock.h). The other integrators move every body.
+// its closed form while it flies (flight.h), by what integration.h chooses while something acts on
+// it. The other integrators move every body. Kinematic bodies move evenly.
+//
+// Sets of bodies that no spring joins may be advanced separately, to times of their own, and at
+// the same time by threads with a SimulationWorker each; commit() makes the frame's end the time of
+// all.
 
 #pragma once
 
@@ -13,46 +16,88 @@
 #include <vector>
 
 #include "poinsot/base/hash.h"
-#include "poinsot/simulation/fixed_step.h"
-#include "poinsot/simulation/flight.h"
-#include "poinsot/simulation/rosenbrock.h"
-#include "poinsot/simulation/taylor.h"
+#include "poinsot/simulation/course.h"
+#include "poinsot/simulation/integration.h"
 
 namespace poinsot {
+
+// What an advance of some bodies adds to the books. Sums are formed in the order of the sets, not
+// of the threads.
+struct Tally {
+  double work = 0;                // [J] of held and contact wrenches, drag and damping
+  LocalError error;               // sum over the advances of the largest of all bodies
+  double mismatch = 0;            // [kg·m²/s] the same of |ΔL − ∫τ|
+  double largest_momentum = 0;    // [kg·m²/s]
+  std::uint32_t quarantined = 0;  // bodies frozen
+  bool stiff = false;
+
+  void add(const Tally& later);         // of the same bodies
+  void add_apart(const Tally& others);  // of other bodies at the same time
+};
+
+// Scratch of one thread.
+struct SimulationWorker {
+  explicit SimulationWorker(const World& world);
+
+  TaylorSeries taylor;
+  Workspace lone;
+  std::vector<Workspace> systems;  // to look ahead with
+};
 
 class SimulationLayer {
  public:
   explicit SimulationLayer(const Scene& scene);
 
-  // Afterwards world().time == t_end exactly. Contact wrenches act until t_end and are zero
-  // afterwards. A body whose state became non-finite is put back to where the last advance left it
-  // and frozen there. Throws Error if t_end is not finite, lies in the past or more than 1e9 fixed
-  // steps ahead, or if a held wrench is not finite: before anything has moved.
+  // Begins an advance of all bodies to t_end. Throws Error if t_end is not finite, lies in the past
+  // or more than 1e9 fixed steps ahead, or if a held wrench is not finite: before anything moved.
+  void begin(double t_end);
+
+  // Moves `bodies`, systems as a whole, from time `from`, at which they are, to `to`. Contact
+  // wrenches, if `in_contact`, act meanwhile and are zero afterwards. A body whose state became
+  // non-finite is put back to where its last advance left it and frozen there.
+  void advance(std::span<const Eigen::Index> bodies, double from, double to, bool in_contact,
+               SimulationWorker& worker, Tally& tally);
+
+  // All bodies are at t_end: it becomes the world's time.
+  void commit(double t_end, const Tally& tally);
+
+  // begin, advance of everything, commit.
   void advance_to(double t_end);
 
-  // Puts bodies whose state is not finite, or absurd, back to where the last advance left them, and
-  // freezes them there. advance_to ends with it; callers that changed the state call it before they
-  // ask anything about it.
-  void freeze_unsound();
+  // Puts bodies whose state is not finite, or absurd, back to where their last advance left them,
+  // and freezes them there. Callers that changed the state call it before they ask anything.
+  void freeze_unsound(std::span<const Eigen::Index> bodies, Tally& tally);
+
+  // The course of a body from its present state, which it has at `from`, on. Valid until its state,
+  // its wrenches or `worker` are used for something else; a flight's lasts as long as the flight.
+  Course course(Eigen::Index i, double from, double to, bool in_contact, SimulationWorker& worker);
+  // The state of a driven body at time t of such a course.
+  Course::Column preview(Eigen::Index i, const Course::Preview& course, double t);
+  // Whether the body flies, and has not been touched since its flight was last evaluated or begun.
+  bool is_in_flight(Eigen::Index i) const;
+  // Begins a flight, at time `from`, unless the body is in one; and how that flight may turn.
+  void begin_flight(Eigen::Index i, double from);
+  const RotationBound& turning(Eigen::Index i, double from);
+  // Something but gravity acts on the body in this frame, contacts aside.
+  bool is_driven(Eigen::Index i) const { return driven_[static_cast<std::size_t>(i)] != 0; }
+  // The body is left alone from now on: nothing moves it.
+  void rest(Eigen::Index i) { methods_[static_cast<std::size_t>(i)] = Method::none; }
+  bool flies_free() const { return integration_.kind() == IntegratorKind::exact; }
 
   World& world() { return world_; }
   const World& world() const { return world_; }
 
-  // Wrench about c, in W, that contacts exert on each body until the next advance_to ends.
-  std::span<Wrench> contact_wrenches() {
-    in_contact_ = true;
-    return contact_wrenches_;
-  }
+  // Wrench about c, in W, that contacts exert on each body in an advance in contact.
+  std::span<Wrench> contact_wrenches() { return contact_wrenches_; }
 
-  std::uint32_t quarantined() const { return quarantined_; }  // bodies frozen so far
-  double work() const { return work_; }  // [J] of held and contact wrenches, drag and damping
+  std::uint32_t quarantined() const { return total_.quarantined; }  // bodies frozen so far
+  double work() const { return total_.work; }                       // [J] so far
 
   // What moved each body in the last advance, in column order.
   std::span<const Method> methods() const { return methods_; }
-  bool is_stiff() const { return stiff_; }  // a system is integrated implicitly
+  bool is_stiff() const { return total_.stiff; }  // a system is integrated implicitly
 
-  // Errors since the last start_frame(), the largest of all bodies.
-  void start_frame() { forced_error_ = {}; }
+  // Local errors of the last frame, the largest of all bodies.
   LocalError local_error() const;
   // Sum over the advances of the largest |ΔL − ∫τ| of a body, over the largest |L| seen [-].
   double momentum_error() const;
@@ -60,18 +105,20 @@ class SimulationLayer {
   // Adds what a continuation depends on besides the world: where flights began, and step sizes.
   void hash_into(Hash64& hash) const;
 
- private:
-  // What integrating one set of bodies takes; those without springs share one.
-  struct Workspace {
-    explicit Workspace(std::size_t bodies);
-
-    SystemState state;  // 17×n
-    std::vector<SystemBody> bodies;
-    std::vector<BodyRates> rates;
-    EmbeddedRungeKutta embedded;
-    FixedStep fixed;
-    Rosenbrock rosenbrock;  // prepared when it is first needed
+  // What of a body changes in an advance: to go back to.
+  struct Backup {
+    Course::Column y = Course::Column::Zero(), last_good = Course::Column::Zero();
+    Flight flight;
+    RotationBound turning;
+    bool turning_known = false;
+    Method method = Method::none;
+    Motion motion = Motion::dynamic;
+    StepMemory memory, system_memory;  // the system's with its first body
   };
+  Backup backup(Eigen::Index i) const;
+  void restore(Eigen::Index i, const Backup& backup);
+
+ private:
   // Bodies to be integrated together, and what they keep between advances.
   struct Group {
     std::span<const Eigen::Index> columns;
@@ -79,42 +126,39 @@ class SimulationLayer {
     Workspace& work;
     StepMemory& memory;
   };
+  struct Advance {
+    SimulationWorker& worker;
+    bool in_contact;
+    LocalError error;
+    double mismatch = 0;
+  };
 
-  void check(double t_end);
-  bool estimates_steps() const;
-  bool is_driven(Eigen::Index i) const;
-  void fly(Eigen::Index i, double t_end);
-  void integrate(const Group& group, double duration);
-  Method integrate_state(const Group& group, const System& system, double duration);
-  Method by_tolerance(const EmbeddedPair& pair, Method method, double tolerance, const Group& group,
-                      const System& system, double duration);
-  Method by_fixed_steps(const Group& group, const System& system, double duration);
-  void load(const Group& group) const;
+  bool is_pushed(Eigen::Index i) const;
+  bool in_system(Eigen::Index i) const;
+  Course kinematic_course(Eigen::Index i, double to) const;
+  Group system_group(int s, Workspace& work, StepMemory& memory);
+  void load(const Group& group, bool in_contact) const;
+  void fly(Eigen::Index i, double from, double to, Tally& tally);
+  void integrate(const Group& group, double duration, Advance& advance, Tally& tally);
 
   World world_;
-  IntegratorKind kind_;
-  double longest_step_;  // [s]
-  double tolerance_;     // of the series, or of the pair
+  Integration integration_;
   std::vector<Wrench> contact_wrenches_;
-  bool in_contact_ = false;  // they were asked for since the last advance
-  StateArray last_good_;     // 13×n, at the end of the last advance
-  std::uint32_t quarantined_ = 0;
+  StateArray last_good_;  // 13×n, at the end of each body's last advance
 
   std::vector<Method> methods_;
-  std::vector<std::uint8_t> driven_;  // in this advance: something but gravity acts
-  std::vector<Flight> flights_;       // of bodies whose method is flight
+  std::vector<std::uint8_t> driven_;    // in this frame: something but gravity acts
+  std::vector<Flight> flights_;         // of bodies whose method is flight
+  std::vector<RotationBound> turning_;  // of those flights, once asked for
+  std::vector<std::uint8_t> turning_known_;
   std::vector<StepMemory> memories_;  // per body, for the embedded pairs
   std::vector<StepMemory> system_memories_;
-  TaylorSeries taylor_;
-  Workspace lone_;
   std::vector<Workspace> systems_;
+  std::vector<Eigen::Index> all_;      // columns
+  std::vector<SimulationWorker> own_;  // of advance_to
 
-  double work_ = 0;
-  LocalError forced_error_, advance_error_;
-  LocalError step_error_;  // of one fixed step, when it was last estimated
-  double momentum_mismatch_ = 0, advance_mismatch_ = 0, largest_momentum_ = 0;  // [kg·m²/s]
-  std::uint32_t advances_ = 0;
-  bool stiff_ = false;
+  Tally total_;
+  LocalError frame_error_;
 };
 
 }  // namespace poinsot

@@ -16,12 +16,15 @@ World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
     ids.push_back({static_cast<std::uint32_t>(k), 1});
     names.push_back(body.name);
     center_of_mass.push_back(m.center_of_mass);
-    motion.push_back(body.is_static ? Motion::fixed : Motion::dynamic);
-    mass.push_back(body.is_static ? 0.0 : m.mass);
-    inv_mass.push_back(body.is_static ? 0.0 : 1.0 / m.mass);
-    J_B.push_back(body.is_static ? Mat3(Mat3::Zero()) : m.J);
-    principal_axes.push_back(body.is_static ? PrincipalAxes{} : poinsot::principal_axes(m.J));
-    inv_J_B.push_back(body.is_static ? Mat3(Mat3::Zero()) : inverse_inertia(principal_axes[k]));
+    const bool heavy = body.is_static || body.is_kinematic;  // nothing moves it
+    motion.push_back(body.is_static      ? Motion::fixed
+                     : body.is_kinematic ? Motion::kinematic
+                                         : Motion::dynamic);
+    mass.push_back(heavy ? 0.0 : m.mass);
+    inv_mass.push_back(heavy ? 0.0 : 1.0 / m.mass);
+    J_B.push_back(heavy ? Mat3(Mat3::Zero()) : m.J);
+    principal_axes.push_back(heavy ? PrincipalAxes{} : poinsot::principal_axes(m.J));
+    inv_J_B.push_back(heavy ? Mat3(Mat3::Zero()) : inverse_inertia(principal_axes[k]));
 
     position(y, i) = body.pose * m.center_of_mass;
     orientation(y, i) = body.pose.q;
@@ -29,6 +32,14 @@ World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
     const Mat3 R = body.pose.q.toRotationMatrix();
     angular_momentum(y, i) = R * (J_B[k] * (R.transpose() * body.angular_velocity));
   }
+  const auto is_kinematic = [](const BodyDef& body) { return body.is_kinematic; };
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), is_kinematic))
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      const BodyDef& body = scene.bodies[k];
+      kinematic.push_back(
+          {{body.linear_velocity, body.angular_velocity}, {position(y, i), orientation(y, i)}});
+    }
   const auto dragged = [](const BodyDef& body) {
     return body.drag.linear > 0 || body.drag.quadratic > 0 || body.drag.angular > 0;
   };
@@ -67,6 +78,13 @@ void World::freeze(Eigen::Index i) {
   angular_momentum(y, i).setZero();
 }
 
+void World::thaw(Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  motion[k] = Motion::dynamic;
+  inv_mass[k] = 1.0 / mass[k];
+  inv_J_B[k] = inverse_inertia(principal_axes[k]);
+}
+
 Mat3 rotation(const World& world, Eigen::Index i) {
   return orientation(world.y, i).toRotationMatrix();
 }
@@ -77,10 +95,12 @@ Mat3 inv_J_W(const World& world, Eigen::Index i) {
 }
 
 Vec3 linear_velocity(const World& world, Eigen::Index i) {
+  if (world.is_kinematic(i)) return world.kinematic[static_cast<std::size_t>(i)].velocity.linear;
   return world.inv_mass[static_cast<std::size_t>(i)] * momentum(world.y, i);
 }
 
 Vec3 angular_velocity(const World& world, Eigen::Index i) {
+  if (world.is_kinematic(i)) return world.kinematic[static_cast<std::size_t>(i)].velocity.angular;
   const Mat3 R = rotation(world, i);
   return R * (world.inv_J_B[static_cast<std::size_t>(i)] *
               (R.transpose() * angular_momentum(world.y, i)));

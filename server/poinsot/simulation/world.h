@@ -20,10 +20,16 @@
 
 namespace poinsot {
 
+struct Velocity {
+  Vec3 linear = Vec3::Zero();   // [m/s] of the centre of mass, in W
+  Vec3 angular = Vec3::Zero();  // [rad/s] in W
+};
+
 enum class Motion : std::uint8_t {
   dynamic,
-  fixed,   // static in the scene
-  frozen,  // dynamic, but its state became non-finite: held at its last good pose
+  fixed,      // static in the scene
+  kinematic,  // moves evenly, whatever it meets
+  frozen,     // dynamic, but its state became non-finite: held at its last good pose
 };
 
 struct World {
@@ -34,12 +40,17 @@ struct World {
     return motion[static_cast<std::size_t>(i)] == Motion::dynamic;
   }
 
+  bool is_kinematic(Eigen::Index i) const {
+    return motion[static_cast<std::size_t>(i)] == Motion::kinematic;
+  }
+
   // Column of a body; nothing if there is no such body.
   std::optional<Eigen::Index> find(BodyId id) const;
   std::optional<Eigen::Index> find(std::string_view name) const;
 
-  // Sets a body at rest for good at its present pose.
+  // Sets a body at rest for good at its present pose, and makes it a moving one again.
   void freeze(Eigen::Index i);
+  void thaw(Eigen::Index i);
 
   double time = 0;  // [s]
   Vec3 gravity;     // [m/s²] in W
@@ -61,6 +72,13 @@ struct World {
   std::vector<int> system_of;       // index into systems, or kLone; empty as systems
   std::vector<int> place_of;        // index into that system's columns; empty as systems
   static constexpr int kLone = -1;
+
+  // Per column; empty: the scene has no kinematic bodies.
+  struct Kinematic {
+    Velocity velocity;
+    Pose start;  // of the centre of mass at time 0
+  };
+  std::vector<Kinematic> kinematic;
 
   // Inputs of the frame.
   std::vector<HeldWrench> held;

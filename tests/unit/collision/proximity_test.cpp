@@ -16,14 +16,16 @@ double least_gap(const Manifold& m) {
   return least;
 }
 
-TEST(PairTable, HasNoHoleButTwoHalfSpaces) {
+TEST(PairTable, HasNoHoleButWhatNoForceMoves) {
   for (std::size_t a = 0; a < kShapeCount; ++a) {
     for (std::size_t b = 0; b < kShapeCount; ++b) {
       const char kernel = kPairTable[a][b];
       if (b < a) {
         EXPECT_EQ(kernel, ' ');
-      } else if (a == kHalfSpace) {
+      } else if (a >= kHalfSpace) {
         EXPECT_EQ(kernel, '-');
+      } else if (b == kMesh) {
+        EXPECT_EQ(kernel, 'M');
       } else {
         EXPECT_NE(std::string("FBGH").find(kernel), std::string::npos);
       }

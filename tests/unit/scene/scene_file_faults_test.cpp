@@ -50,13 +50,16 @@ const std::string kBodies =
 std::string spring(const std::string& keys) {
   return kBodies + "springs:\n  - {" + keys + "}\n";
 }
+std::string pair(const std::string& keys) {
+  return kBodies + "pairs:\n  - {" + keys + "}\n";
+}
 std::string wrench(const std::string& keys) {
   return kBodies + "wrenches:\n  - {" + keys + "}\n";
 }
 
 const std::string kKnown =
     ", known here: world, presentation, collision, simulation, allow_overlap, bodies, springs, "
-    "wrenches";
+    "wrenches, pairs";
 
 const std::vector<Malformed> kMalformed = {
     // The whole
@@ -86,14 +89,23 @@ const std::vector<Malformed> kMalformed = {
     {"Profile", "bodies: []\nprofile: fast", "s.yaml:2:1: 'profile' is not supported yet"},
     {"StaticFriction", with("shape: {sphere: 1}, material: {static_friction: 1}"),
      "s.yaml:2:55: 'static_friction' is not supported yet"},
-    {"MeshShape", of("mesh: {file: a.obj}"), "s.yaml:2:23: 'mesh' is not supported yet"},
     {"ConvexFile", of("convex: {file: a.obj}"), "s.yaml:2:32: 'file' is not supported yet"},
-    {"Threads", "bodies: []\ncollision: {threads: 2}",
-     "s.yaml:2:13: 'threads' is not supported yet"},
-    {"LaterSearch", "bodies: []\ncollision: {impact_search: conservative}",
-     "s.yaml:2:28: impact_search 'conservative' is not supported yet, known: none"},
 
     // Layer tables
+    {"UnknownSearch", "bodies: []\ncollision: {impact_search: backtrack}",
+     "s.yaml:2:28: unknown impact_search 'backtrack', did you mean 'backtracking'?"},
+    {"Threads", "bodies: []\ncollision: {threads: 0}",
+     "s.yaml:2:22: threads must be 1 to 256, is 0"},
+    {"ThreadsInPart", "bodies: []\ncollision: {threads: 1.5}",
+     "s.yaml:2:22: threads must be a whole number, is '1.5'"},
+    {"MaxImpacts", "bodies: []\ncollision: {max_impacts: -1}",
+     "s.yaml:2:26: max_impacts must be 0 to 1000000, is -1"},
+    {"ContactBand", "bodies: []\ncollision: {contact_band: 0.01}",
+     "s.yaml:2:27: contact_band must be 1e-13 to 0.001, is 0.01"},
+    {"SleepAcceleration", "bodies: []\ncollision: {sleep_acceleration: -1}",
+     "s.yaml:2:33: sleep_acceleration must be >= 0 m/s² and finite, is -1"},
+    {"Sleeping", "bodies: []\ncollision: {sleeping: 1}",
+     "s.yaml:2:23: sleeping must be true or false, is '1'"},
     {"UnknownIntegrator", "bodies: []\nsimulation: {integrator: simpson}",
      "s.yaml:2:26: unknown integrator 'simpson', known: exact, taylor, dop853, dopri5, rk4, "
      "semi_implicit_euler, explicit_euler"},
@@ -129,9 +141,10 @@ const std::vector<Malformed> kMalformed = {
     {"NameTwice", "bodies:\n  - {name: a, static: true}\n  - {name: a, static: true}",
      "s.yaml:3:12: duplicate body name 'a', first at s.yaml:2:5"},
     {"NoMass", "bodies:\n  - {name: a, shape: {sphere: 1}}",
-     "s.yaml:2:5: a body that is not static needs density or mass"},
+     "s.yaml:2:5: a body that is neither static nor kinematic needs density or mass"},
     {"NoShapeNoMass", "bodies:\n  - {name: a}",
-     "s.yaml:2:5: a body that is not static needs a shape with a density, or mass and inertia"},
+     "s.yaml:2:5: a body that is neither static nor kinematic needs a shape with a density, or "
+     "mass and inertia"},
     {"MassWithoutShape", "bodies:\n  - {name: a, mass: 1}",
      "s.yaml:2:5: a body without a shape needs the key 'inertia'"},
     {"MassAndDensity", with("density: 1, shape: {sphere: 1}"),
@@ -139,7 +152,8 @@ const std::vector<Malformed> kMalformed = {
     {"MassAndShapeDensity", with("shape: {sphere: 1, density: 2}"),
      "s.yaml:2:5: a body must have either mass or shapes with a density"},
     {"SomeDensities", "bodies:\n  - {name: a, shapes: [{sphere: 1, density: 2}, {sphere: 1}]}",
-     "s.yaml:2:5: a body that is not static needs a density for each of its shapes"},
+     "s.yaml:2:5: a body that is neither static nor kinematic needs a density for each of its "
+     "shapes"},
     {"MassZero", "bodies:\n  - {name: a, mass: 0, shape: {sphere: 1}}",
      "s.yaml:2:21: mass must be > 0 kg, is 0"},
     {"DensityNegative", "bodies:\n  - {name: a, density: -1, shape: {sphere: 1}}",
@@ -238,7 +252,7 @@ const std::vector<Malformed> kMalformed = {
     {"WrenchOnNobody", wrench("body: bok, torque: [1, 0, 0]"),
      "s.yaml:4:12: no body 'bok', did you mean 'box'?"},
     {"WrenchOnAStaticBody", wrench("body: wall, force: [1, 0, 0]"),
-     "s.yaml:4:12: a wrench acts on a body that moves, 'wall' is static"},
+     "s.yaml:4:12: a wrench acts on a body that forces move, 'wall' is static"},
     {"WrenchForce", wrench("body: box, force: [0, 2e12, 0]"),
      "s.yaml:4:24: force must be finite and at most 1e+12 N"},
     {"WrenchTorque", wrench("body: box, torque: [0, 0, -2e12]"),
@@ -267,6 +281,36 @@ const std::vector<Malformed> kMalformed = {
     {"WrenchWithAWordOfThePush", wrench("body: box, force: [1, 0, 0], for: 1"),
      "s.yaml:4:35: unknown key 'for', did you mean 'force'?"},
 
+    // Pairs
+    {"PairsNoList", "bodies: []\npairs: 1", "s.yaml:2:8: pairs must be a list, is '1'"},
+    {"PairOfOne", pair("a: box, collide: false"), "s.yaml:4:5: a pair needs the key 'b'"},
+    {"PairOfNothing", pair("a: box, b: ball"),
+     "s.yaml:4:5: a pair needs the key 'friction', 'restitution' or 'collide'"},
+    {"PairWithNobody", pair("a: bok, b: ball, friction: 1"),
+     "s.yaml:4:9: no body 'bok', did you mean 'box'?"},
+    {"PairWithItself", pair("a: box, b: box, friction: 1"),
+     "s.yaml:4:17: a pair must name two bodies, both are 'box'"},
+    {"PairTwice", pair("a: box, b: ball, friction: 1}\n  - {b: box, a: ball, collide: false"),
+     "s.yaml:5:5: duplicate pair of 'ball' and 'box', first at s.yaml:4:5"},
+    {"PairFriction", pair("a: box, b: ball, friction: -1"),
+     "s.yaml:4:33: friction must be >= 0 and finite, is -1"},
+    {"PairRestitution", pair("a: box, b: ball, restitution: 2"),
+     "s.yaml:4:36: restitution must be 0 to 1, is 2"},
+    {"PairCollideWord", pair("a: box, b: ball, collide: no"),
+     "s.yaml:4:32: collide must be true or false, is 'no'"},
+    {"PairApartWithFriction", pair("a: box, b: ball, friction: 1, collide: false"),
+     "s.yaml:4:45: a pair that does not collide has no friction and no restitution"},
+    {"PairMisspelt", pair("a: box, b: ball, colide: false"),
+     "s.yaml:4:23: unknown key 'colide', did you mean 'collide'?"},
+
+    // Kinematic bodies
+    {"KinematicWord", with("shape: {sphere: 1}, kinematic: 1"),
+     "s.yaml:2:55: kinematic must be true or false, is '1'"},
+    {"KinematicAndStatic", with("static: true, kinematic: true"),
+     "s.yaml:2:49: a body must be either static or kinematic"},
+    {"KinematicDrag", with("kinematic: true, drag: {linear: 1}"),
+     "s.yaml:2:47: a kinematic body has no drag"},
+
     // Orientations
     {"QuaternionAsList", with("shape: {sphere: 1}, orientation: [0, 0, 0, 1]"),
      "s.yaml:2:57: orientation must be {x, y, z, w} or {rpy: [roll, pitch, yaw]}: a bare list does "
@@ -291,10 +335,10 @@ const std::vector<Malformed> kMalformed = {
      "s.yaml:2:32: capsule needs the key 'length'"},
     {"TwoKinds", of("sphere: 1, box: [1, 1, 1]"),
      "s.yaml:2:22: a shape must have exactly one of sphere, box, capsule, cylinder, cone, "
-     "ellipsoid, convex, half_space"},
+     "ellipsoid, convex, half_space, mesh"},
     {"NoKind", of("position: [0, 0, 0]"),
      "s.yaml:2:22: a shape must have exactly one of sphere, box, capsule, cylinder, cone, "
-     "ellipsoid, convex, half_space"},
+     "ellipsoid, convex, half_space, mesh"},
     {"KindMisspelt", of("spheer: 1"), "s.yaml:2:23: unknown key 'spheer', did you mean 'sphere'?"},
     {"ShapeAndShapes", with("shape: {sphere: 1}, shapes: [{sphere: 1}]"),
      "s.yaml:2:44: a body must have either shape or shapes"},

@@ -196,7 +196,7 @@ TEST(ValidateWrenches, NeedABodyThatMoves) {
   EXPECT_EQ(with_wrench([](WrenchDef& w) { w.body = "wale"; }),
             Faults{"wrenches[0].body: no body 'wale', did you mean 'wall'?"});
   EXPECT_EQ(with_wrench([](WrenchDef& w) { w.body = "wall"; }),
-            Faults{"wrenches[0].body: a wrench acts on a body that moves, 'wall' is static"});
+            Faults{"wrenches[0].body: a wrench acts on a body that forces move, 'wall' is static"});
 }
 
 TEST(ValidateWrenches, ChecksNumbers) {

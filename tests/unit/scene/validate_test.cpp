@@ -54,6 +54,10 @@ TEST(Validate, ChecksTheTables) {
               s.collision.iterations = 0;
               s.collision.contact_margin = kNaN;
               s.collision.push_out_speed = -1;
+              s.collision.contact_band = 0;
+              s.collision.max_impacts = -1;
+              s.collision.sleep_acceleration = kNaN;
+              s.collision.threads = 0;
               s.simulation.step = 2;
               s.simulation.tolerance = kNaN;
               s.simulation.gravity.y() = kNaN;
@@ -64,6 +68,11 @@ TEST(Validate, ChecksTheTables) {
                     "collision.iterations: iterations must be 1 to 1000000, is 0",
                     "collision.contact_margin: contact_margin must be 0 to 1, is nan",
                     "collision.push_out_speed: push_out_speed must be >= 0 m/s and finite, is -1",
+                    "collision.contact_band: contact_band must be 1e-13 to 0.001, is 0",
+                    "collision.max_impacts: max_impacts must be 0 to 1000000, is -1",
+                    "collision.sleep_acceleration: sleep_acceleration must be >= 0 m/s² and "
+                    "finite, is nan",
+                    "collision.threads: threads must be 1 to 256, is 0",
                     "simulation.step: step must be 0 (one per contact step) or 1e-09 to 1 s, is 2",
                     "simulation.tolerance: tolerance must be 0 (the integrator's own) or 1e-15 to "
                     "0.1, is nan",

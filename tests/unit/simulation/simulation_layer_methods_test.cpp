@@ -19,7 +19,6 @@ constexpr double kFrame = 1.0 / 60;
 void run(SimulationLayer& layer, int frames) {
   const double start = layer.world().time;
   for (int n = 1; n <= frames; ++n) {
-    layer.start_frame();
     layer.advance_to(start + n * kFrame);
   }
 }
@@ -90,7 +89,10 @@ TEST(Methods, LeaveAFrozenBodyInASystemWhereItIs) {
   run(layer, 10);
   const StateArray before = layer.world().y;
   momentum(layer.world().y, 0).x() = std::numeric_limits<double>::quiet_NaN();
-  layer.freeze_unsound();
+  Tally tally;
+  const Eigen::Index spoilt = 0;
+  layer.freeze_unsound({&spoilt, 1}, tally);
+  layer.commit(layer.world().time, tally);
   run(layer, 60);
   EXPECT_EQ(layer.quarantined(), 1u);
   EXPECT_EQ(layer.methods()[0], Method::none);
@@ -203,7 +205,6 @@ TEST_P(Layers, ReportErrorsThatAreOfTheSizeOfTheErrors) {
   test::ExtendedReference exact = test::reference_of(layer.world(), test::kQuick);
   LocalError sum;
   for (int n = 1; n <= 60; ++n) {
-    layer.start_frame();
     layer.advance_to(n * kFrame);
     sum += layer.local_error();
   }

@@ -28,10 +28,10 @@ TEST(Convert, PosesKeepEveryField) {
   expect_round_trip<msg::v1::PoseFrame>(sample::poses(13, 7));
 }
 TEST(Convert, ABodyKeepsEveryField) {
-  expect_round_trip<msg::v1::BodyDescription>(sample::body_info(4, 9));
+  expect_round_trip<msg::v2::BodyDescription>(sample::body_info(4, 9));
 }
 TEST(Convert, AReportKeepsEveryField) {
-  expect_round_trip<msg::v2::RunStatus>(sample::report());
+  expect_round_trip<msg::v3::RunStatus>(sample::report());
 }
 TEST(Convert, AWrenchKeepsEveryField) {
   expect_round_trip<msg::v1::BodyWrench>(sample::wrench());
@@ -41,6 +41,24 @@ TEST(Convert, AControlKeepsEveryField) {
 }
 TEST(Convert, AReplyKeepsEveryField) {
   expect_round_trip<msg::v1::CommandReply>(sample::reply());
+}
+
+TEST(Convert, AnImpactKeepsEveryField) {
+  expect_round_trip<msg::v1::ImpactEvent>(sample::impact());
+}
+TEST(Convert, AnImpactThatCannotBeIsRefused) {
+  const auto refused = [](const std::function<void(ImpactNotice&)>& spoil) {
+    ImpactNotice impact = sample::impact(), back;
+    spoil(impact);
+    msg::v1::ImpactEvent wire;
+    EXPECT_EQ(to_message(impact, wire), "");
+    return from_message(wire, back);
+  };
+  EXPECT_EQ(refused([](ImpactNotice& i) { i.time = kNaN; }), "time is not finite");
+  EXPECT_EQ(refused([](ImpactNotice& i) { i.b.id = {}; }), "body has no generation");
+  EXPECT_EQ(refused([](ImpactNotice& i) { i.normal *= 2; }), "normal is not of length 1");
+  EXPECT_EQ(refused([](ImpactNotice& i) { i.a.linear_after.y() = kInfinity; }),
+            "linear_after.y is not finite");
 }
 
 TEST(Convert, AFrameIntoAUsedSampleLeavesNothingOfTheOldOne) {
@@ -56,7 +74,7 @@ TEST(Convert, AFrameIntoAUsedSampleLeavesNothingOfTheOldOne) {
 TEST(Convert, AReportIntoAUsedSampleLeavesNothingOfTheOldOne) {
   RunReport longer = sample::report();
   longer.body_methods.resize(100, Method::rk4);
-  msg::v2::RunStatus wire;
+  msg::v3::RunStatus wire;
   RunReport back;
   for (const RunReport& report : {longer, sample::report()}) {
     ASSERT_EQ(to_message(report, wire), "");
@@ -69,10 +87,10 @@ TEST(Convert, EveryMethodKeepsItsNumber) {
   RunReport report = sample::report();
   report.body_methods.clear();
   for (const auto& row : kMethodNames) report.body_methods.push_back(row.value);
-  expect_round_trip<msg::v2::RunStatus>(report);
-  EXPECT_EQ(msg::v2::METHOD_FLIGHT, static_cast<std::uint8_t>(Method::flight));
-  EXPECT_EQ(msg::v2::METHOD_ROSENBROCK, static_cast<std::uint8_t>(Method::rosenbrock));
-  EXPECT_EQ(msg::v2::METHOD_EXPLICIT_EULER, static_cast<std::uint8_t>(Method::explicit_euler));
+  expect_round_trip<msg::v3::RunStatus>(report);
+  EXPECT_EQ(msg::v3::METHOD_FLIGHT, static_cast<std::uint8_t>(Method::flight));
+  EXPECT_EQ(msg::v3::METHOD_ROSENBROCK, static_cast<std::uint8_t>(Method::rosenbrock));
+  EXPECT_EQ(msg::v3::METHOD_EXPLICIT_EULER, static_cast<std::uint8_t>(Method::explicit_euler));
 }
 
 TEST(Convert, EveryKindOfShapeKeepsItsParameters) {
@@ -84,7 +102,7 @@ TEST(Convert, EveryKindOfShapeKeepsItsParameters) {
                  {Cone{0.75, 4}, {}},
                  {Ellipsoid{{3, 2, 1}}, {}},
                  {HalfSpace{{0, 0.6, 0.8}, -2}, {}}};
-  msg::v1::BodyDescription wire;
+  msg::v2::BodyDescription wire;
   BodyInfo back;
   ASSERT_EQ(to_message(info, wire), "");
   ASSERT_EQ(from_message(wire, back), "");
@@ -114,7 +132,7 @@ Convex corner() {
 TEST(Convert, AConvexShapeKeepsVerticesAndFaces) {
   BodyInfo info = sample::body_info(0, 1);
   info.shapes = {{corner(), {}}};
-  msg::v1::BodyDescription wire;
+  msg::v2::BodyDescription wire;
   BodyInfo back;
   ASSERT_EQ(to_message(info, wire), "");
   ASSERT_EQ(from_message(wire, back), "");
@@ -127,6 +145,35 @@ TEST(Convert, AConvexShapeKeepsVerticesAndFaces) {
     EXPECT_LT((convex.faces[i].normal - corner().faces[i].normal).norm(), kRounding);
     EXPECT_NEAR(convex.faces[i].offset, corner().faces[i].offset, kRounding);
   }
+}
+
+// Two triangles that share an edge.
+Mesh sheet() {
+  return {.vertices = {{0, 0, 0}, {1, 0, 0.5}, {1, 1, 0}, {0, 1, 0.25}},
+          .triangles = {{0, 1, 2}, {0, 2, 3}}};
+}
+
+TEST(Convert, AMeshKeepsVerticesAndTriangles) {
+  BodyInfo info = sample::body_info(0, 1);
+  info.shapes = {{sheet(), {}}, {corner(), {}}};
+  msg::v2::BodyDescription wire;
+  BodyInfo back;
+  ASSERT_EQ(to_message(info, wire), "");
+  ASSERT_EQ(from_message(wire, back), "");
+  const auto& mesh = std::get<Mesh>(back.shapes.at(0).shape);
+  EXPECT_EQ(mesh.vertices, sheet().vertices);
+  EXPECT_EQ(mesh.triangles, sheet().triangles);
+  // The same message, used again for what has no triangles.
+  info.shapes = {{corner(), {}}};
+  ASSERT_EQ(to_message(info, wire), "");
+  EXPECT_TRUE(wire.shapes()[0].triangles().empty());
+}
+
+TEST(Convert, AKinematicBodyStaysOne) {
+  BodyInfo info = sample::body_info(0, 1);
+  info.is_static = false;
+  info.is_kinematic = true;
+  expect_round_trip<msg::v2::BodyDescription>(info);
 }
 
 TEST(Convert, ALongReplyIsCutBetweenCharacters) {
@@ -143,7 +190,7 @@ TEST(Convert, WhatDoesNotFitIsNotSent) {
   msg::v1::PoseFrame frame;
   EXPECT_NE(to_message(sample::poses(0, kMaxBodies + 1), frame), "");
   BodyInfo info = sample::body_info(0, 1);
-  msg::v1::BodyDescription body;
+  msg::v2::BodyDescription body;
   info.name = std::string(kMaxNameLength + 1, 'a');
   EXPECT_NE(to_message(info, body), "");
   info = sample::body_info(0, 1);
@@ -153,7 +200,7 @@ TEST(Convert, WhatDoesNotFitIsNotSent) {
   EXPECT_NE(to_message(info, body), "");
   RunReport report = sample::report();
   report.body_methods.resize(kMaxBodies + 1);
-  msg::v2::RunStatus status;
+  msg::v3::RunStatus status;
   EXPECT_NE(to_message(report, status), "");
   WrenchCommand wrench = sample::wrench();
   wrench.body_name = "\xFF";
@@ -262,10 +309,10 @@ TEST(Convert, MalformedPosesAreRefusedWithTheReason) {
 }
 
 TEST(Convert, MalformedReportsAreRefusedWithTheReason) {
-  using Wire = msg::v2::RunStatus;
+  using Wire = msg::v3::RunStatus;
   expect_refusals<RunReport, Wire>(
       sample::report(),
-      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v2::RunStateKind>(4)); }},
+      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v3::RunStateKind>(4)); }},
        {"flags are unknown", [](Wire& w) { w.flags(16); }},
        {"position_error is not finite", [](Wire& w) { w.position_error(kNaN); }},
        {"orientation_error is not finite", [](Wire& w) { w.orientation_error(kInfinity); }},
@@ -277,16 +324,17 @@ TEST(Convert, MalformedReportsAreRefusedWithTheReason) {
 }
 
 TEST(Convert, MalformedBodiesAreRefusedWithTheReason) {
-  using Wire = msg::v1::BodyDescription;
+  using Wire = msg::v2::BodyDescription;
   BodyInfo good = sample::body_info(0, 2);
   good.shapes.push_back({corner(), {}});
   good.shapes.push_back({HalfSpace{}, {}});
+  good.shapes.push_back({sheet(), {}});
   expect_refusals<BodyInfo, Wire>(
       good,
       {{"body has no generation", [](Wire& w) { w.generation(0); }},
        {"scene_index is not below", [](Wire& w) { w.scene_index(2); }},
        {"name is not printable", [](Wire& w) { w.name("\xFF"); }},
-       {"kind 2 is unknown", [](Wire& w) { w.kind(static_cast<msg::v1::BodyKind>(2)); }},
+       {"kind 3 is unknown", [](Wire& w) { w.kind(static_cast<msg::v2::BodyKind>(3)); }},
        {"mass is negative", [](Wire& w) { w.mass(-1); }},
        {"inertia is not finite", [](Wire& w) { w.inertia()[4] = kNaN; }},
        {"pose.orientation is not a unit", [](Wire& w) { w.pose().orientation().z(2); }},
@@ -294,8 +342,8 @@ TEST(Convert, MalformedBodiesAreRefusedWithTheReason) {
        {"restitution is not 0 to 1", [](Wire& w) { w.restitution(1.1); }},
        {"too many shapes", [](Wire& w) { w.shapes().resize(kMaxShapes + 1); }},
        {"shapes[0]: size is not positive", [](Wire& w) { w.shapes()[0].parameters()[1] = 0; }},
-       {"shapes[0]: kind 8 is unknown",
-        [](Wire& w) { w.shapes()[0].kind(static_cast<msg::v1::ShapeKind>(8)); }},
+       {"shapes[0]: kind 9 is unknown",
+        [](Wire& w) { w.shapes()[0].kind(static_cast<msg::v2::ShapeKind>(9)); }},
        {"shapes[0]: pose.position.x is not finite",
         [](Wire& w) { w.shapes()[0].pose().position().x(kNaN); }},
        {"shapes[1]: number of vertices", [](Wire& w) { w.shapes()[1].vertices().resize(3); }},
@@ -310,7 +358,19 @@ TEST(Convert, MalformedBodiesAreRefusedWithTheReason) {
        {"shapes[1]: a face without area", [](Wire& w) { w.shapes()[1].face_loops()[2] = 0; }},
        {"shapes[1]: fewer than 4 faces", [](Wire& w) { w.shapes()[1].face_loops().resize(12); }},
        {"shapes[2]: normal is not a unit", [](Wire& w) { w.shapes()[2].parameters()[2] = 0.5; }},
-       {"shapes[2]: offset is not finite", [](Wire& w) { w.shapes()[2].parameters()[3] = kNaN; }}});
+       {"shapes[2]: offset is not finite", [](Wire& w) { w.shapes()[2].parameters()[3] = kNaN; }},
+       {"shapes[3]: vertices.z is not finite",
+        [](Wire& w) { w.shapes()[3].vertices()[1].z(kInfinity); }},
+       {"shapes[3]: too many vertices",
+        [](Wire& w) { w.shapes()[3].vertices().resize(kMaxMeshVertices + 1); }},
+       {"shapes[3]: number of triangle corners",
+        [](Wire& w) { w.shapes()[3].triangles().clear(); }},
+       {"shapes[3]: number of triangle corners",
+        [](Wire& w) { w.shapes()[3].triangles().resize(5); }},
+       {"shapes[3]: number of triangle corners",
+        [](Wire& w) { w.shapes()[3].triangles().resize(3 * kMaxTriangles + 3); }},
+       {"shapes[3]: a triangle index without vertex",
+        [](Wire& w) { w.shapes()[3].triangles()[4] = 4; }}});
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+#include "poinsot/collision/collision_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace poinsot {
+
+std::vector<Collider> make_colliders(const Scene& scene) {
+  std::vector<Collider> colliders;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    const BodyDef& body = scene.bodies[k];
+    for (const ShapeDef& def : body.shapes)
+      colliders.emplace_back(static_cast<Eigen::Index>(k), def.shape,
+                             Pose{def.pose.c - body.mass_properties.center_of_mass, def.pose.q});
+  }
+  return colliders;
+}
+
+CollisionState::CollisionState(const Scene& scene)
+    : def(scene.collision),
+      simulation(scene),
+      colliders(make_colliders(scene)),
+      arm(scene.bodies.size(), 0),
+      pairs(scene.bodies.size()),
+      stamp(scene.bodies.size(), 1),
+      body_time(scene.bodies.size(), 0),
+      courses(scene.bodies.size()),
+      course_stamp(scene.bodies.size(), 0),
+      bounds_until(scene.bodies.size(), 0),
+      asleep(scene.bodies.size(), 0),
+      bound(colliders.size()) {
+  for (const BodyDef& body : scene.bodies) materials.push_back(body.material);
+  first_collider.assign(scene.bodies.size() + 1, 0);
+  for (const Collider& collider : colliders) {
+    const auto k = static_cast<std::size_t>(collider.body);
+    ++first_collider[k + 1];
+    arm[k] = std::max(arm[k], collider.in_body.c.norm() + collider.bounding_radius);
+  }
+  for (std::size_t k = 1; k < first_collider.size(); ++k)
+    first_collider[k] += first_collider[k - 1];
+}
+
+std::span<const Collider> CollisionState::colliders_of(Eigen::Index i) const {
+  const auto k = static_cast<std::size_t>(i);
+  return {colliders.data() + first_collider[k], colliders.data() + first_collider[k + 1]};
+}
+
+const Course& CollisionState::course(Eigen::Index i, double to, bool in_contact,
+                                     SimulationWorker& worker) {
+  const auto k = static_cast<std::size_t>(i);
+  Course& course = courses[k];
+  if (course_stamp[k] == stamp[k] && course.end() >= to) return course;
+  course = asleep[k] != 0 ? Course::still({position(world().y, i), orientation(world().y, i)},
+                                          body_time[k], to)
+                          : simulation.course(i, body_time[k], to, in_contact, worker);
+  course_stamp[k] = stamp[k];
+  return course;
+}
+
+MovingPose CollisionState::moving_pose(Eigen::Index i, double t, bool in_contact,
+                                       SimulationWorker& worker) {
+  const auto k = static_cast<std::size_t>(i);
+  if (body_time[k] == t || !world().moves(i) || asleep[k] != 0) {
+    if (!world().is_kinematic(i))
+      return {{position(world().y, i), orientation(world().y, i)},
+              {linear_velocity(world(), i), angular_velocity(world(), i)}};
+  }
+  return course(i, t, in_contact, worker).moving_at(t);
+}
+
+void CollisionState::bring(Eigen::Index i, double t, SimulationWorker& worker, Tally& tally) {
+  const auto k = static_cast<std::size_t>(i);
+  if (body_time[k] == t || !is_awake(i)) return;
+  simulation.advance({&i, 1}, body_time[k], t, false, worker, tally);
+  body_time[k] = t;
+}
+
+double CollisionState::touch(const PairRecord& record) const {
+  const auto a = static_cast<Eigen::Index>(record.a), b = static_cast<Eigen::Index>(record.b);
+  const double reach = std::min(position(world().y, a).norm() + arm[static_cast<std::size_t>(a)],
+                                position(world().y, b).norm() + arm[static_cast<std::size_t>(b)]);
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
+  return std::max(def.contact_band * record.size, std::isfinite(rounding) ? rounding : 0.0);
+}
+
+}  // namespace poinsot

@@ -1,0 +1,99 @@
+// The standing contacts of a sub-step: finds the points of chosen pairs, moves apart what
+// penetrates, and finds the impulses λ that act as forces λ/h until the sub-step ends, so that
+// gravity, held wrenches and contact are integrated together.
+//
+// With impacts foreseen (crowded islands, and scenes without a search) pairs that would be through
+// before the sub-step ends are slowed by an impulse to arrive exactly, and leave with restitution.
+// README.md, section "A sub-step", gives the equations.
+
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "poinsot/collision/collision_state.h"
+#include "poinsot/contact/sequential_impulses.h"
+
+namespace poinsot {
+
+class ContactStep {
+ public:
+  struct Books {
+    double impact_loss = 0;      // [J] kinetic energy that foreseen impacts took
+    double push_out_energy = 0;  // [J] that push-out added
+  };
+  struct Outcome {
+    std::uint32_t pushing = 0;   // points with an impulse
+    double max_penetration = 0;  // [m] after push-out
+  };
+
+  explicit ContactStep(const CollisionDef& def);
+
+  // Of the pairs that follow; bodies are at `time`. Pairs stay in the list until begin().
+  void begin(const CollisionState& state, double h);
+  void add(CollisionState& state, int record);
+  std::size_t points() const { return contacts_.size(); }
+
+  // Moves bodies, changes momenta and fills the contact wrenches of the simulation layer.
+  Outcome solve(CollisionState& state, Books& books);
+
+  // Whether the bodies of the pairs added would stay at rest if they were: impulses inside their
+  // cones are found that leave no body an acceleration above `sleep_acceleration`. The pairs keep
+  // the impulses. Bounded work: what it did not find it may find when it is asked again.
+  bool proves_rest(CollisionState& state);
+  // Whether every one of these bodies is in a pair added.
+  bool holds_all(const CollisionState& state, std::span<const Eigen::Index> bodies) const;
+
+  // Part of h that the bodies may move on before one could pass through another: 1 if nothing
+  // became faster than was foreseen or turns fast.
+  double sound_part(const CollisionState& state) const;
+
+  // The bodies that contacts act on, systems as a whole, ascending.
+  std::span<const Eigen::Index> movers() const { return movers_; }
+  std::span<const int> records() const { return records_; }
+  bool acts_on(Eigen::Index column) const {
+    return std::binary_search(movers_.begin(), movers_.end(), column);
+  }
+  // Of the k-th record added: whether a point pushes, and the least gap [m] when it was added.
+  bool pushes(std::size_t k) const;
+  double least_gap(std::size_t k) const;
+  // Whether add() would find points of the record at all, by balls about its shapes.
+  bool is_near(const CollisionState& state, int record);
+
+ private:
+  struct Point {
+    int record;  // index into records_
+    int index;   // into its points
+  };
+
+  int local(const CollisionState& state, Eigen::Index column);
+  double margin(const CollisionState& state, const PairRecord& record);
+  void measure(CollisionState& state, PairRecord& record, double margin);
+  void recall(PairContact& contact, double size);
+  void gather(const World& world);
+  void push_out(CollisionState& state, Books& books);
+  bool choose_targets(CollisionState& state);
+  void foresee_impacts(CollisionState& state, Books& books);
+  void resolve(CollisionState& state);
+  void remember(CollisionState& state);
+  void find_movers(const CollisionState& state);
+  PairPoint& point(CollisionState& state, std::size_t i);
+
+  CollisionDef def_;
+  SequentialImpulses solver_;
+  double h_ = 0;
+  std::vector<int> local_of_;          // per column; −1: none
+  std::vector<Eigen::Index> columns_;  // per local body
+  std::vector<double> travel_, room_;  // [m] per local body: foreseen, and more that does no harm
+  std::vector<ContactBody> bodies_, before_;
+  std::vector<int> records_;
+  std::vector<std::size_t> first_point_;  // per record, and the end
+  std::vector<Point> points_;
+  std::vector<Contact> contacts_, impacts_;
+  std::vector<double> target_;  // [m/s] per contact
+  std::vector<Eigen::Index> movers_;
+  std::vector<double> fastest_;  // [m] per local body: travel after the impulses
+};
+
+}  // namespace poinsot

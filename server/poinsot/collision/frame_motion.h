@@ -1,0 +1,61 @@
+// One frame of the collision layer, from partition to commit.
+
+#pragma once
+
+#include "poinsot/base/parallel.h"
+#include "poinsot/collision/collision_layer.h"
+#include "poinsot/collision/island_motion.h"
+#include "poinsot/collision/islands.h"
+#include "poinsot/collision/sleep.h"
+#include "poinsot/scene/pair_rules.h"
+
+namespace poinsot {
+
+class FrameMotion {
+ public:
+  explicit FrameMotion(const Scene& scene);
+
+  void advance_to(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
+                  CollisionTimes& times);
+
+  void touch() { touched_ = true; }
+  CollisionState& state() { return state_; }
+  const CollisionState& state() const { return state_; }
+  const Sleep& sleep() const { return sleep_; }
+
+ private:
+  void settle_courses();
+  void set_bounds(double t_end);
+  void set_bound(Eigen::Index i, double until, double more);
+  void update_pairs();
+  void find_excited(double t_end, SearchWork& work);
+  void excite(Eigen::Index i, double t_end, double speed);
+  void run_islands(double t_end, CollisionReport& report, CollisionTimes& times);
+  void gather_strays(double t_end, int attempt);
+  void put_to_sleep();
+  bool touches_now(const PairRecord& record) const;
+  void fly_the_rest(double t_end, Tally& tally);
+  void close(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
+             const Tally& tally);
+  void place_resting(Eigen::Index i);
+  void wake(Eigen::Index i);
+
+  CollisionState state_;
+  Team team_;
+  std::vector<IslandMotion> motions_;  // per thread
+  BroadPhase broad_phase_;
+  Islands islands_;
+  Sleep sleep_;
+  PairRules rules_;
+  std::vector<std::uint32_t> bounded_;  // stamp of the course that the boxes are of, per body
+  std::vector<std::uint8_t> excited_;   // per body
+  std::vector<double> thrown_;          // [m/s] per body: the speed that an impact may have
+  std::vector<Eigen::Index> rest_, awake_, strays_, left_;
+  std::vector<Tally> rest_tallies_;
+  std::vector<std::uint8_t> tired_;  // per island
+  bool boxes_changed_ = true;
+  bool touched_ = true;  // the world may have been changed from outside
+  bool rests_ = false;   // nothing moves
+};
+
+}  // namespace poinsot

@@ -1,0 +1,211 @@
+#include "poinsot/collision/impact_response.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "poinsot/collision/proximity.h"
+
+namespace poinsot {
+namespace {
+
+// Of the contact step: a bounce whose flight would be shorter is the last one. A ball that comes to
+// rest by it is wrong by g (kRestFlight/240 s)²/8 of height, 3e-10 m.
+constexpr double kRestFlight = 4e-3;
+// Of the touch distance: corners of a face that arrive together are that close to one another.
+constexpr double kTogether = 4;
+
+Vec3 velocity_at(const ContactBody& body, const Vec3& point) {
+  return body.v + body.omega.cross(point - body.c);
+}
+
+double closing_speed(const ImpactPoint& p, std::span<const ContactBody> bodies) {
+  return -p.normal.dot(velocity_at(bodies[static_cast<std::size_t>(p.a)], p.point) -
+                       velocity_at(bodies[static_cast<std::size_t>(p.b)], p.point));
+}
+
+}  // namespace
+
+int ImpactResponse::local(CollisionState& state, Eigen::Index column, double t,
+                          SimulationWorker& worker) {
+  const auto found = std::find(columns_.begin(), columns_.end(), column);
+  if (found != columns_.end()) return static_cast<int>(found - columns_.begin());
+  columns_.push_back(column);
+  const World& world = state.world();
+  poses_.push_back(state.moving_pose(column, t, false, worker));
+  ContactBody body;
+  body.c = poses_.back().pose.c;
+  body.v = poses_.back().velocity.linear;
+  body.omega = poses_.back().velocity.angular;
+  if (state.is_awake(column)) {
+    const auto k = static_cast<std::size_t>(column);
+    const Mat3 R = poses_.back().pose.q.toRotationMatrix();
+    body.inv_mass = world.inv_mass[k];
+    body.inv_J_W = R * world.inv_J_B[k] * R.transpose();
+  }
+  bodies_.push_back(body);
+  return static_cast<int>(columns_.size()) - 1;
+}
+
+bool ImpactResponse::touches(CollisionState& state, const PairRecord& record, double t,
+                             SimulationWorker& worker) {
+  const Collider& shape_a = state.colliders[static_cast<std::size_t>(record.pair.a)];
+  const Collider& shape_b = state.colliders[static_cast<std::size_t>(record.pair.b)];
+  const auto pose = [&](const Collider& shape) {
+    return collider_pose(shape, state.moving_pose(shape.body, t, false, worker).pose);
+  };
+  const Pose pose_a = pose(shape_a), pose_b = pose(shape_b);
+  const double touch = kTogether * state.touch(record);
+  if ((pose_a.c - pose_b.c).norm() > shape_a.bounding_radius + shape_b.bounding_radius + touch)
+    return false;
+  return find_gap(shape_a, pose_a, shape_b, pose_b).value <= touch;
+}
+
+void ImpactResponse::add_points(CollisionState& state, int index, double t,
+                                SimulationWorker& worker) {
+  const PairRecord& record = state.pairs[index];
+  const int a = local(state, record.a, t, worker), b = local(state, record.b, t, worker);
+  const Collider& shape_a = state.colliders[static_cast<std::size_t>(record.pair.a)];
+  const Collider& shape_b = state.colliders[static_cast<std::size_t>(record.pair.b)];
+  const Pose pose_a = collider_pose(shape_a, poses_[static_cast<std::size_t>(a)].pose);
+  const Pose pose_b = collider_pose(shape_b, poses_[static_cast<std::size_t>(b)].pose);
+  const std::size_t first = points_.size();
+  ImpactPoint p;
+  p.a = a;
+  p.b = b;
+  p.restitution = record.restitution;
+  p.friction = record.friction;
+  find_manifolds(shape_a, pose_a, shape_b, pose_b, kTogether * state.touch(record), manifolds_);
+  for (const Manifold& manifold : manifolds_)
+    for (int k = 0; k < manifold.count; ++k) {
+      p.normal = manifold.normal;
+      p.point = manifold.points[static_cast<std::size_t>(k)].point;
+      points_.push_back(p);
+    }
+  if (points_.size() == first && ranges_.empty()) {  // the search knows where they met
+    p.normal = record.normal;
+    p.point = record.point;
+    points_.push_back(p);
+  }
+  if (points_.size() > first) ranges_.push_back({index, first, points_.size()});
+}
+
+// All that touches, from moving body to moving body.
+void ImpactResponse::gather_cluster(CollisionState& state, Island& island,
+                                    std::span<const int> island_of, int record, double t,
+                                    SimulationWorker& worker) {
+  columns_.clear();
+  poses_.clear();
+  bodies_.clear();
+  points_.clear();
+  ranges_.clear();
+  add_points(state, record, t, worker);
+  const auto first = static_cast<std::size_t>(island.bodies.front());
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const Eigen::Index body = columns_[k];
+    if (!state.world().moves(body)) continue;
+    if (island_of[static_cast<std::size_t>(body)] != island_of[first]) {
+      island.strays.push_back(body);
+      continue;
+    }
+    for (const int r : state.pairs.of(body)) {
+      const bool known = std::any_of(ranges_.begin(), ranges_.end(),
+                                     [&](const Range& range) { return range.record == r; });
+      if (known || !touches(state, state.pairs[r], t, worker)) continue;
+      add_points(state, r, t, worker);
+    }
+  }
+}
+
+double ImpactResponse::restitution(CollisionState& state, const PairRecord& record,
+                                   const ImpactPoint& point) const {
+  const double e = point.restitution, speed = closing_speed(point, bodies_);
+  if (e == 0 || speed <= 0) return e;
+  const auto acceleration = [&](int body) -> Vec3 {
+    if (!state.is_awake(body)) return Vec3::Zero();
+    const auto k = static_cast<std::size_t>(body);
+    return state.course_stamp[k] == state.stamp[k] ? state.courses[k].acceleration()
+                                                   : state.world().gravity;
+  };
+  const double pressing = -point.normal.dot(Vec3(acceleration(record.a) - acceleration(record.b)));
+  return 2 * e * speed < pressing * kRestFlight * state.def.contact_step ? 0 : e;
+}
+
+void ImpactResponse::resolve(CollisionState& state, Island& island, std::span<const int> island_of,
+                             int record, double t, SimulationWorker& worker) {
+  changed_.clear();
+  gather_cluster(state, island, island_of, record, t, worker);
+  if (!island.strays.empty()) return;
+  for (const Range& range : ranges_)
+    for (std::size_t k = range.first; k < range.end; ++k)
+      points_[k].restitution = restitution(state, state.pairs[range.record], points_[k]);
+  before_ = bodies_;
+  const ImpactOutcome outcome = solver_.resolve(bodies_, points_);
+  island.result.impact_loss += outcome.energy_lost;
+
+  World& world = state.simulation.world();
+  for (const ImpactPoint& p : points_) {
+    if (p.impulse.isZero(0)) continue;
+    for (const int body : {p.a, p.b}) {
+      const Eigen::Index i = columns_[static_cast<std::size_t>(body)];
+      if (!state.is_awake(i) || std::find(changed_.begin(), changed_.end(), i) != changed_.end())
+        continue;
+      state.bring(i, t, worker, island.result.tally);
+      changed_.push_back(i);
+    }
+  }
+  for (const ImpactPoint& p : points_) {
+    if (p.impulse.isZero(0)) continue;
+    for (const auto& [body, sign] : {std::pair{p.a, 1.0}, {p.b, -1.0}}) {
+      const Eigen::Index i = columns_[static_cast<std::size_t>(body)];
+      if (!state.is_awake(i)) continue;
+      momentum(world.y, i) += sign * p.impulse;
+      angular_momentum(world.y, i) +=
+          sign * (p.point - bodies_[static_cast<std::size_t>(body)].c).cross(p.impulse);
+    }
+  }
+  for (const Eigen::Index i : changed_) state.change_course(i);
+  tell(state, island, t);
+}
+
+void ImpactResponse::tell(CollisionState& state, Island& island, double t) {
+  for (const Range& range : ranges_) {
+    ImpactEvent event;
+    double weight = 0;
+    for (std::size_t k = range.first; k < range.end; ++k) {
+      const ImpactPoint& p = points_[k];
+      const double push = p.normal.dot(p.impulse);
+      event.impulse += p.impulse;
+      event.point += push * p.point;
+      weight += push;
+      event.normal = p.normal;
+    }
+    if (!(weight > 0)) continue;
+    event.point /= weight;
+    event.time = t;
+    const auto a = static_cast<std::size_t>(points_[range.first].a);
+    const auto b = static_cast<std::size_t>(points_[range.first].b);
+    event.a = columns_[a];
+    event.b = columns_[b];
+    event.v_a_before = before_[a].v;
+    event.w_a_before = before_[a].omega;
+    event.v_b_before = before_[b].v;
+    event.w_b_before = before_[b].omega;
+    event.v_a_after = bodies_[a].v;
+    event.w_a_after = bodies_[a].omega;
+    event.v_b_after = bodies_[b].v;
+    event.w_b_after = bodies_[b].omega;
+    if (!state.world().moves(event.a)) {  // a is the one that moves
+      std::swap(event.a, event.b);
+      std::swap(event.v_a_before, event.v_b_before);
+      std::swap(event.w_a_before, event.w_b_before);
+      std::swap(event.v_a_after, event.v_b_after);
+      std::swap(event.w_a_after, event.w_b_after);
+      event.normal = -event.normal;
+      event.impulse = -event.impulse;
+    }
+    island.result.events.push_back(event);
+    ++island.result.impacts;
+  }
+}
+
+}  // namespace poinsot

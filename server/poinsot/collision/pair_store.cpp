@@ -1,0 +1,85 @@
+#include "poinsot/collision/pair_store.h"
+
+#include <algorithm>
+
+namespace poinsot {
+
+PairRecord* PairStore::find(const ColliderPair& pair) {
+  const auto found = std::lower_bound(
+      records_.begin(), records_.end(), pair,
+      [](const PairRecord& record, const ColliderPair& p) { return record.pair < p; });
+  return found != records_.end() && found->pair == pair ? &*found : nullptr;
+}
+
+void PairStore::make_contact(PairRecord& record) {
+  if (record.contact >= 0) return;
+  if (free_.empty()) {
+    record.contact = static_cast<int>(contacts_.size());
+    contacts_.emplace_back();
+    PairContact& contact = contacts_.back();
+    contact.points.reserve(Manifold::kMaxPoints);
+    contact.last.reserve(Manifold::kMaxPoints);
+    return;
+  }
+  record.contact = free_.back();
+  free_.pop_back();
+}
+
+void PairStore::drop(const PairRecord& record) {
+  if (record.contact < 0) return;
+  PairContact& contact = contacts_[static_cast<std::size_t>(record.contact)];
+  contact.points.clear();
+  contact.last.clear();
+  contact.last_h = 0;
+  contact.margin = -1;
+  contact.digest = 0;
+  free_.push_back(record.contact);
+}
+
+void PairStore::index() {
+  std::fill(first_.begin(), first_.end(), 0);
+  for (const PairRecord& record : records_) {
+    ++first_[static_cast<std::size_t>(record.a) + 1];
+    ++first_[static_cast<std::size_t>(record.b) + 1];
+  }
+  for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
+  of_.resize(2 * records_.size());
+  for (std::size_t i = records_.size(); i-- > 0;)
+    for (const int body : {records_[i].a, records_[i].b})
+      of_[static_cast<std::size_t>(--first_[static_cast<std::size_t>(body) + 1])] =
+          static_cast<int>(i);
+  // Filled from behind, each start has come down to where its body's records begin.
+  for (std::size_t k = 0; k + 1 < first_.size(); ++k) first_[k] = first_[k + 1];
+  first_.back() = static_cast<int>(of_.size());
+}
+
+namespace {
+
+std::uint64_t digest_of(const PairContact& contact) {
+  Hash64 hash;
+  hash.add(contact.last_h);
+  for (const PairPoint& point : contact.points) {
+    hash.add(point.normal_impulse);
+    for (const double x : point.friction_impulse) hash.add(x);
+    for (const double x : point.offset) hash.add(x);
+    hash.add(point.approach);
+  }
+  return hash.value() | 1;
+}
+
+}  // namespace
+
+void PairStore::hash_into(Hash64& hash) const {
+  for (const PairRecord& record : records_) {
+    const PairContact* contact = find_contact(record);
+    if (!record.standing && (contact == nullptr || contact->points.empty())) continue;
+    hash.add(static_cast<std::uint64_t>(record.pair.a) << 32 |
+             static_cast<std::uint32_t>(record.pair.b));
+    hash.add(static_cast<std::uint64_t>(record.standing ? 1 : 0));
+    if (contact == nullptr) continue;
+    if (contact->digest == 0) contact->digest = digest_of(*contact);
+    hash.add(contact->digest);
+  }
+}
+
+}  // namespace poinsot
