@@ -29,6 +29,7 @@ class FakeDaemon {
       : participant_({.domain = test_domain()}),
         poses(participant_, world),
         report(participant_, world),
+        events(participant_, world),
         scene_(participant_, world),
         reply_(participant_, world),
         wrench_(participant_, world),
@@ -53,6 +54,7 @@ class FakeDaemon {
  public:
   Publisher<PoseSnapshot> poses;
   Publisher<RunReport> report;
+  Publisher<ImpactNotice> events;
 
  private:
   void serve(const std::stop_token& stop) {
@@ -229,6 +231,24 @@ TEST(ClientTest, MeetsADaemonAgainThatWasKilledAndRestarted) {
     daemon = std::make_unique<ChildProcess>(role("serve", "restart", 1000 * (restart + 1)));
     ASSERT_EQ(daemon->read_line(), "ready");
   }
+}
+
+TEST(Client, HearsImpactsInOrderFromItsFirstCallOn) {
+  FakeDaemon daemon("impacts");
+  Client client({.world = "impacts", .domain = test_domain()});
+  client.wait_for_server(kPatience);
+  EXPECT_EQ(daemon.events.readers(), 0);  // nobody has asked yet
+  ImpactNotice impact;
+  EXPECT_FALSE(client.next_impact(impact, 0ms));
+  ASSERT_TRUE(eventually([&] { return daemon.events.readers() == 1; }));
+  ImpactNotice sent = sample::impact();
+  for (sent.frame = 1; sent.frame <= 500; ++sent.frame) ASSERT_TRUE(daemon.events.write(sent));
+  for (sent.frame = 1; sent.frame <= 500; ++sent.frame) {
+    ASSERT_TRUE(client.next_impact(impact, kPatience)) << sent.frame;
+    expect_same(impact, sent);
+  }
+  EXPECT_FALSE(client.next_impact(impact, 0ms));
+  EXPECT_EQ(impact.frame, 500u);
 }
 
 }  // namespace

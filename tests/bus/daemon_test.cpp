@@ -233,5 +233,24 @@ TEST_F(DaemonTest, EndsByItselfWithTheHashOfARunWithoutABus) {
   EXPECT_EQ(summary.state_hash, hash_without_clients(scene, 100));
 }
 
+TEST_F(DaemonTest, TellsImpactsToThoseWhoListen) {
+  Scene scene = two_boxes("impacts");
+  // The crate falls 0.5 m, flat.
+  start(scene, {.paused = true});
+  ImpactNotice impact;
+  EXPECT_FALSE(client_->next_impact(impact, 500ms));  // listens; the publisher has seen it
+  step(60);
+  ASSERT_TRUE(client_->next_impact(impact, kPatience));
+  EXPECT_EQ(impact.epoch, 1u);
+  EXPECT_EQ(impact.frame, 20u);  // √(2·0.5/g) = 0.31928 s
+  EXPECT_NEAR(impact.time, std::sqrt(1 / 9.81), 1e-9);
+  EXPECT_NEAR(impact.normal.z(), 1, 1e-12);
+  EXPECT_NEAR(impact.a.linear_before.z(), -std::sqrt(9.81), 1e-8);
+  EXPECT_GT(impact.impulse.z(), 0);
+  const RunReport report = client_->report(kPatience);
+  EXPECT_GE(report.frame.impacts_so_far, 1u);
+  EXPECT_EQ(report.events_dropped, 0u);
+}
+
 }  // namespace
 }  // namespace poinsot

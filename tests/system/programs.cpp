@@ -70,6 +70,15 @@ Json Watcher::next() {
   return Json::parse(line);
 }
 
+Listener::Listener(Words more)
+    : ChildProcess(POINSOT_CLIENT, on_test_domain(joined({"events", "--json"}, more))) {}
+
+Json Listener::next() {
+  const std::string line = read_line();
+  if (line.empty()) throw std::runtime_error("no impact came: " + errors());
+  return Json::parse(line);
+}
+
 TemporaryFile::TemporaryFile(const std::string& name, const std::string& text)
     : directory_(test::make_temp_directory()), path_(directory_ + "/" + name) {
   std::ofstream(path_) << text;

@@ -42,6 +42,12 @@ struct Watcher : ChildProcess {
   Json next();  // the next frame; throws if none comes
 };
 
+struct Listener : ChildProcess {
+  // poinsot events --json ...
+  explicit Listener(Words more = {});
+  Json next();  // the next impact; throws if none comes
+};
+
 // A file that is gone at the end of the test.
 class TemporaryFile {
  public:

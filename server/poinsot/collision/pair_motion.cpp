@@ -18,12 +18,6 @@ bool is_plane(const Collider& collider) {
   return std::holds_alternative<HalfSpace>(collider.shape);
 }
 
-bool is_curved(const Collider& collider) {
-  return std::holds_alternative<Cylinder>(collider.shape) ||
-         std::holds_alternative<Cone>(collider.shape) ||
-         std::holds_alternative<Ellipsoid>(collider.shape);
-}
-
 }  // namespace
 
 PairMotion::Side::Side(const Collider& collider_, const Course& course_)
@@ -164,7 +158,7 @@ double PairMotion::rounding() const {
 }
 
 double PairMotion::rate_rounding() const {
-  const bool curved = !has_plane_ && (is_curved(*a_.collider) || is_curved(*b_.collider));
+  const bool curved = !has_plane_ && (a_.collider->is_curved || b_.collider->is_curved);
   return (curved ? kCurvedNormal : kNormal) * (a_.speed() + b_.speed());
 }
 

@@ -1,5 +1,6 @@
 #include "poinsot/cli/format.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -119,6 +120,37 @@ TEST(StatusText, ShowsTheErrorsAndTheMethodsThatMovedBodies) {
             std::string::npos)
       << text;
   EXPECT_NE(text.find("flags        stiff\n"), std::string::npos) << text;
+}
+
+TEST(StatusText, CountsIslandsSearchesImpactsAndSleepers) {
+  RunReport report;
+  report.frame.bodies = 9;
+  report.frame.asleep = 4;
+  report.frame.islands = 2;
+  report.frame.restarts = 1;
+  report.frame.impact_searches = 12;
+  report.frame.impacts = 3;
+  report.frame.impacts_so_far = 40;
+  report.frame.flags = FrameFlag::crowded;
+  report.events_dropped = 5;
+  const std::string text = status_text("push_me", report);
+  for (const char* line :
+       {"bodies       9 moving, 4 asleep, 0 quarantined\n",
+        "islands      2, 1 restarts, 12 impact searches\n", "impacts      3, 40 in all\n",
+        "dropped      0 snapshots, 5 events\n", "flags        crowded\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << text;
+}
+
+TEST(ImpactLine, HasAsManyWordsAsItsTitle) {
+  const std::string text = impact_line(sample::impact(), "ball", "table");
+  EXPECT_EQ(text.substr(0, 22), "28 0.45 ball table 0.5");
+  const auto words = [](std::string_view line) {
+    return std::count(line.begin(), line.end(), ' ') + 1;
+  };
+  EXPECT_EQ(words(text), words(kImpactLinesTitle) - 1);  // the # is a word
+  // A name with a space is quoted, and stays one column for who reads quotes.
+  EXPECT_NE(impact_line(sample::impact(), "big ball", "table").find("\"big ball\" table "),
+            std::string::npos);
 }
 
 TEST(StatusText, ShowsNoMethodWhereNothingHasMoved) {

@@ -134,6 +134,44 @@ TEST(ControlJson, NamesTheFrameReachedAndItsHash) {
   EXPECT_EQ(answer["state_hash"], "fedcba9876543210");
 }
 
+TEST(ImpactJson, CarriesEverythingWithAllItsDigits) {
+  const json impact = parsed(impact_json(sample::impact(), "big ball", "table"));
+  EXPECT_EQ(keys(impact), (std::set<std::string>{"frame", "epoch", "time", "a", "b", "point",
+                                                 "normal", "impulse"}));
+  EXPECT_EQ(impact["frame"], 28);
+  EXPECT_EQ(impact["epoch"], 2);
+  EXPECT_EQ(impact["time"].get<double>(), 0.1 + 0.35);
+  EXPECT_EQ(impact["a"]["name"], "big ball");
+  EXPECT_EQ(impact["b"]["name"], "table");
+  EXPECT_EQ(impact["a"]["linear_before"], json({1.0, 0.0, -4.0}));
+  EXPECT_EQ(impact["a"]["linear_after"], json({1.0, 0.0, 2.0}));
+  EXPECT_EQ(impact["a"]["angular_after"], json({0.0, 0.25, 0.0}));
+  EXPECT_EQ(impact["point"][2].get<double>(), 1.0 / 3);
+  EXPECT_EQ(impact["normal"], json({0.0, 0.0, 1.0}));
+  EXPECT_EQ(impact["impulse"], json({0.0, 0.0, 1.5}));
+}
+
+TEST(StatusJson, CountsIslandsSearchesImpactsAndSleepers) {
+  RunReport report;
+  report.frame.islands = 2;
+  report.frame.restarts = 3;
+  report.frame.impact_searches = 4;
+  report.frame.impacts = 5;
+  report.frame.impacts_so_far = 6;
+  report.frame.asleep = 7;
+  report.frame.flags = FrameFlag::crowded;
+  report.events_dropped = 8;
+  const json status = parsed(status_json("push_me", report, {}));
+  EXPECT_EQ(status["islands"], 2);
+  EXPECT_EQ(status["restarts"], 3);
+  EXPECT_EQ(status["impact_searches"], 4);
+  EXPECT_EQ(status["impacts"], 5);
+  EXPECT_EQ(status["impacts_so_far"], 6);
+  EXPECT_EQ(status["asleep"], 7);
+  EXPECT_EQ(status["events_dropped"], 8);
+  EXPECT_EQ(status["flags"], json({"crowded"}));
+}
+
 TEST(StatusJson, NamesStateAndFlags) {
   RunReport report;
   report.state = RunState::paused;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "poinsot/base/error.h"
+#include "poinsot/cli/events.h"
 #include "poinsot/cli/push.h"
 #include "poinsot/cli/verbs.h"
 #include "poinsot/cli/watch.h"
@@ -103,6 +104,17 @@ TEST(WatchOptions, ReadSeveralBodies) {
   EXPECT_EQ(options.rate, 10);
   EXPECT_EQ(options.count, 5u);
   EXPECT_TRUE(options.json);
+}
+
+TEST(EventsOptions, ReadSeveralBodiesAndACount) {
+  EventsOptions options;
+  EXPECT_EQ(parse([&](CLI::App& app) { add_events_options(app, options); },
+                  {"--body", "box", "--body", "ball", "-n", "5", "--json"}),
+            "");
+  EXPECT_EQ(options.bodies, (std::vector<std::string>{"box", "ball"}));
+  EXPECT_EQ(options.count, 5u);
+  EXPECT_TRUE(options.json);
+  EXPECT_NE(parse([&](CLI::App& app) { add_events_options(app, options); }, {"-n", "0"}), "");
 }
 
 TEST(WatchOptions, RefuseARateOrACountThatShowsNothing) {

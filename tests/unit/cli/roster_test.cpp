@@ -24,6 +24,15 @@ TEST(Roster, ShowsAllBodiesUnlessSomeAreNamed) {
   EXPECT_EQ(*roster.shown(sample::kBall), "big ball");
 }
 
+TEST(Roster, NamesEveryBodyOfTheSceneAndNoOther) {
+  const Roster roster(sample::bodies(), {"big ball"});
+  ASSERT_NE(roster.name(sample::kTable), nullptr);
+  EXPECT_EQ(*roster.name(sample::kTable), "table");
+  EXPECT_EQ(*roster.name(sample::kBox), "box");
+  EXPECT_EQ(roster.name({99, 1}), nullptr);
+  EXPECT_EQ(roster.session(), 7u);
+}
+
 TEST(Roster, ShowsTheNamedOnly) {
   const Roster roster(sample::bodies(), {"big ball"});
   EXPECT_EQ(roster.shown(sample::kBox), nullptr);

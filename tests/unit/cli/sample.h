@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "poinsot/protocol/body_info.h"
+#include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 
 namespace poinsot::sample {
@@ -43,6 +44,20 @@ inline PoseSnapshot poses() {
   ball.position = {123456789, 0, 0.5};
   snapshot.bodies = {box, ball};
   return snapshot;
+}
+
+// The ball on the table.
+inline ImpactNotice impact() {
+  ImpactNotice notice;
+  notice.session = 7;
+  notice.epoch = 2;
+  notice.frame = 28;
+  notice.time = 0.1 + 0.35;
+  notice.a = {kBall, {1, 0, -4}, {0, 0, 0}, {1, 0, 2}, {0, 0.25, 0}};
+  notice.b = {kTable, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  notice.point = {0.5, 0, 1.0 / 3};
+  notice.impulse = {0, 0, 1.5};
+  return notice;
 }
 
 }  // namespace poinsot::sample

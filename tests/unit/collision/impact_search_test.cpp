@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "poinsot/scene/strategies.h"
+#include "poinsot/simulation/simulation_layer.h"
 #include "support/allocation_counter.h"
 #include "support/coursed_pair.h"
 
@@ -16,16 +17,15 @@ constexpr double kGravity = 9.81;
 // Of times of the order of a second, from coordinates of the order of a metre at 1 m/s and more.
 constexpr double kTimeRounding = 1e-14;
 
+using Search = SearchResult (*)(const CoursePair&, const SearchSpan&, SearchMemory&, SearchWork&);
+Search search_of(ImpactSearchKind kind) {
+  if (kind == ImpactSearchKind::backtracking) return search_backtracking;
+  return kind == ImpactSearchKind::continuous ? search_continuous : search_conservative;
+}
+
 SearchResult search(ImpactSearchKind kind, const CoursedPair& pair, SearchWork& work) {
   SearchMemory memory;
-  switch (kind) {
-    case ImpactSearchKind::conservative:
-      return search_conservative(pair.pair(), pair.span(), memory, work);
-    case ImpactSearchKind::backtracking:
-      return search_backtracking(pair.pair(), pair.span(), memory, work);
-    default:
-      return search_continuous(pair.pair(), pair.span(), memory, work);
-  }
+  return search_of(kind)(pair.pair(), pair.span(), memory, work);
 }
 
 class EverySearch : public testing::TestWithParam<ImpactSearchKind> {
@@ -381,46 +381,21 @@ TEST(BacktrackingSearch, MissesAPassBetweenItsSamples) {
   EXPECT_EQ(search(ImpactSearchKind::backtracking, pair, work).meeting, Meeting::none);
 }
 
-// A body driven along z as c = ½ a x² + s sin(kx)/k²…: |rest″| ≤ slack.
-struct Driven {
-  static constexpr double kPull = -3, kSlack = 40, kRate = 50;
-  static double height(double t) {
-    return 0.5 * kPull * t * t - kSlack / (kRate * kRate) * std::sin(kRate * t);
-  }
-  static double speed(double t) { return kPull * t - kSlack / kRate * std::cos(kRate * t); }
-  static Course::Column state(void*, Eigen::Index, double t) {
-    Course::Column y = Course::Column::Zero();
-    y[2] = 1 + height(t);
-    y[6] = 1;
-    y[9] = speed(t);  // of 1 kg
-    return y;
-  }
-};
-
-TEST_P(EverySearch, ADrivenBodyMeetsTheGroundWhereItsStatesSaySo) {
-  Scene s = scene({free_body("driven", 1, {1, 1, 1}), ground()});
-  const World world(s);
+TEST_P(EverySearch, ADrivenBallMeetsTheGroundAtTheRootOfItsParabola) {
+  BodyDef ball = body("ball", Sphere{0.1}, {0, 0, 1.1});
+  Scene s = scene({ball, ground()});
+  SimulationLayer layer(s);
+  SimulationWorker worker(layer.world());
+  const double mass = ball.mass_properties.mass, push = 3;
+  layer.world().held[0].in_W.force = {0, 0, -push * mass};
+  layer.begin(1);
+  const Course down = layer.course(0, 0, 1, false, worker), still = Course::still({}, 0, 1);
+  ASSERT_EQ(down.kind(), Course::Kind::driven);
   const Collider a(0, Sphere{0.1}, {}), b(1, HalfSpace{}, {});
-  const Course down = Course::driven(world, 0, {Driven::state, nullptr}, {0, 0, Driven::kPull},
-                                     Driven::kSlack, {}, 0, 2);
-  const Course still = Course::still({}, 0, 2);
   SearchMemory memory;
-  const CoursePair pair{a, down, b, still};
-  const SearchSpan span{0, 2, 1e-11};
-  const SearchResult r = GetParam() == ImpactSearchKind::conservative
-                             ? search_conservative(pair, span, memory, work_)
-                         : GetParam() == ImpactSearchKind::backtracking
-                             ? search_backtracking(pair, span, memory, work_)
-                             : search_continuous(pair, span, memory, work_);
-  double apart = 0;
-  while (1 + Driven::height(apart + 1e-5) > 0.1) apart += 1e-5;
-  double meets = apart + 1e-5;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (apart + meets);
-    (1 + Driven::height(middle) > 0.1 ? apart : meets) = middle;
-  }
+  const SearchResult r = search_of(GetParam())({a, down, b, still}, {0, 1, 1e-11}, memory, work_);
   ASSERT_EQ(r.meeting, Meeting::impact);
-  EXPECT_NEAR(r.time, meets, kTimeRounding);
+  EXPECT_NEAR(r.time, std::sqrt(2 / (push - s.simulation.gravity.z())), 1e-13);
 }
 
 }  // namespace

@@ -21,6 +21,12 @@ RunSummary example() {
   s.last.position_error = 3.5e-15;
   s.last.orientation_error = 4.5e-16;
   s.last.methods = {1, 8, 3};
+  s.last.impacts_so_far = 227;
+  s.last.islands = 2;
+  s.last.restarts = 3;
+  s.last.impact_searches = 4;
+  s.last.asleep = 5;
+  s.last.flags = FrameFlag::crowded;
   s.state_hash = 0xabcdef;
   return s;
 }
@@ -31,7 +37,10 @@ TEST(RunSummary, JsonIsOneLineWithTheHashInSixteenDigits) {
       "{\"frames\": 600, \"sim_time\": 10, \"wall_s\": 0.25, \"cpu_s\": {\"presentation\": "
       "0.5, \"collision\": 1, \"contact\": 2, \"simulation\": 4, \"publishing\": 8}, "
       "\"bodies\": 12, \"energy_error\": 1.5e-06, \"momentum_error\": 2.5e-14, "
-      "\"position_error\": 3.5e-15, \"orientation_error\": 4.5e-16, \"methods\": {\"none\": 1, "
+      "\"position_error\": 3.5e-15, \"orientation_error\": 4.5e-16, \"impacts\": 227, \"islands\": "
+      "2, "
+      "\"restarts\": 3, \"impact_searches\": 4, \"asleep\": 5, \"crowded\": true, \"methods\": "
+      "{\"none\": 1, "
       "\"flight\": 8, \"taylor\": 3, \"dop853\": 0, \"dopri5\": 0, \"rosenbrock\": 0, \"rk4\": 0, "
       "\"semi_implicit_euler\": 0, \"explicit_euler\": 0}, \"state_hash\": "
       "\"0000000000abcdef\"}\n");
@@ -41,8 +50,9 @@ TEST(RunSummary, TextNamesEveryFigure) {
   const std::string text = to_text(example());
   for (const char* part :
        {"600", "10 s", "0.25 s", "factor 40", "presentation 0.5 s", "publishing 8 s",
-        "12: flight 8, taylor 3\n", "energy error  1.5e-06\n", "momentum      error 2.5e-14\n",
-        "3.5e-15 m, 4.5e-16 rad", "0000000000abcdef"})
+        "12: flight 8, taylor 3\n",
+        "227; last frame: 2 islands, 3 restarts, 4 searches, 5 asleep\n", "energy error  1.5e-06\n",
+        "momentum      error 2.5e-14\n", "3.5e-15 m, 4.5e-16 rad", "0000000000abcdef"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 

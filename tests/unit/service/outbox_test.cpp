@@ -126,6 +126,57 @@ TEST(Outbox, ReportsTravelWithoutAllocating) {
 }
 
 // Also for the thread sanitizer.
+ImpactNotice impact(std::uint64_t frame) {
+  ImpactNotice notice;
+  notice.frame = frame;
+  return notice;
+}
+
+TEST(Outbox, TakesNoImpactsWhileNobodyReadsThem) {
+  Outbox outbox(0);
+  std::vector<ImpactNotice> taken;
+  outbox.push(std::vector{impact(1)});
+  EXPECT_FALSE(outbox.take(taken));
+  EXPECT_EQ(outbox.impacts_dropped(), 0u);
+}
+
+TEST(Outbox, ImpactsKeepTheirOrderAndHaveABound) {
+  Outbox outbox(0);
+  outbox.set_impacts_wanted(true);
+  std::vector<ImpactNotice> frame, taken;
+  for (std::uint64_t n = 0; n < 100; ++n) frame.push_back(impact(n));
+  constexpr std::uint64_t kFrames = Outbox::kImpacts / 100 + 1;
+  for (std::uint64_t n = 0; n < kFrames; ++n) outbox.push(frame);
+  EXPECT_EQ(outbox.impacts_dropped(), kFrames * 100 - Outbox::kImpacts);
+  ASSERT_TRUE(outbox.take(taken));
+  ASSERT_EQ(taken.size(), Outbox::kImpacts);
+  for (std::size_t i = 0; i < taken.size(); ++i) ASSERT_EQ(taken[i].frame, i % 100);
+  EXPECT_FALSE(outbox.take(taken));
+}
+
+TEST(Outbox, AnImpactWakesTheWriter) {
+  Outbox outbox(0);
+  outbox.set_impacts_wanted(true);
+  EXPECT_FALSE(outbox.wait({}, 1ms));
+  outbox.push(std::vector{impact(1)});
+  EXPECT_TRUE(outbox.wait({}, 0ms));
+}
+
+TEST(Outbox, ImpactsInSteadyStateDoNotAllocate) {
+  if (!test::can_count_allocations()) GTEST_SKIP() << "allocations are not counted here";
+  Outbox outbox(0);
+  outbox.set_impacts_wanted(true);
+  const std::vector<ImpactNotice> frame(200);
+  std::vector<ImpactNotice> taken;
+  taken.reserve(Outbox::kImpacts);
+  const std::size_t before = test::allocations();
+  for (int n = 0; n < 100; ++n) {
+    outbox.push(frame);
+    outbox.take(taken);
+  }
+  EXPECT_EQ(test::allocations(), before);
+}
+
 TEST(Outbox, LoopAndWriterMeetWithoutLosingReplies) {
   Outbox outbox(10);
   outbox.set_poses_wanted(true);

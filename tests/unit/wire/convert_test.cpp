@@ -313,7 +313,7 @@ TEST(Convert, MalformedReportsAreRefusedWithTheReason) {
   expect_refusals<RunReport, Wire>(
       sample::report(),
       {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v3::RunStateKind>(4)); }},
-       {"flags are unknown", [](Wire& w) { w.flags(16); }},
+       {"flags are unknown", [](Wire& w) { w.flags(32); }},
        {"position_error is not finite", [](Wire& w) { w.position_error(kNaN); }},
        {"orientation_error is not finite", [](Wire& w) { w.orientation_error(kInfinity); }},
        {"momentum_error is not finite", [](Wire& w) { w.momentum_error(-kInfinity); }},
