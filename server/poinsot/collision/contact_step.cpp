@@ -73,6 +73,7 @@ void ContactStep::begin(const CollisionState& state, double h, bool foresees) {
   columns_.clear();
   travel_.clear();
   room_.clear();
+  fastest_.clear();  // of the last sub-step: without contacts there is none to cut this one by
   records_.clear();
   first_point_.assign(1, 0);
   points_.clear();
