@@ -77,8 +77,7 @@ class ContactStep {
 
   int local(const CollisionState& state, Eigen::Index column);
   double margin(const CollisionState& state, const PairRecord& record);
-  void measure(CollisionState& state, PairRecord& record, double margin);
-  void recall(PairContact& contact, double size);
+  bool comes_in(const CollisionState& state, const PairRecord& record, const PairPoint& p) const;
   void gather(const World& world);
   void push_out(CollisionState& state, Books& books);
   bool choose_targets(CollisionState& state);
@@ -90,8 +89,6 @@ class ContactStep {
 
   CollisionDef def_;
   SequentialImpulses solver_;
-  bool comes_in(const CollisionState& state, const PairRecord& record, const PairPoint& p) const;
-
   double h_ = 0;
   bool foresees_ = true;
   std::vector<Awaited> awaited_;

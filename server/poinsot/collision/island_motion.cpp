@@ -5,7 +5,7 @@
 
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/collision/mesh_pairs.h"
-#include "poinsot/collision/proximity.h"
+#include "poinsot/collision/point_arrival.h"
 #include "poinsot/collision/reach.h"
 
 namespace poinsot {
@@ -38,51 +38,6 @@ SearchResult search_by(ImpactSearchKind kind, const CoursePair& pair, const Sear
     default:
       return search_conservative(pair, span, memory, work);
   }
-}
-
-// Of the point of a manifold that is, seen from either body, where `point` was [m].
-double gap_of_point(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
-                    const PairPoint& point, std::vector<Manifold>& manifolds) {
-  const double reach = a.bounding_radius < b.bounding_radius ? a.bounding_radius : b.bounding_radius;
-  find_manifolds(a, pose_a, b, pose_b, reach, manifolds);
-  double nearest = std::numeric_limits<double>::infinity(), gap = nearest;
-  for (const Manifold& manifold : manifolds)
-    for (int k = 0; k < manifold.count; ++k) {
-      const ManifoldPoint& p = manifold.points[static_cast<std::size_t>(k)];
-      const Vec3 half = (0.5 * p.gap) * manifold.normal;
-      const double from_a = (pose_a.inverse() * Vec3(p.point + half) - point.anchor_a).norm();
-      const double from_b = (pose_b.inverse() * Vec3(p.point - half) - point.anchor_b).norm();
-      const double distance = std::min(from_a, from_b);
-      if (distance >= nearest) continue;
-      nearest = distance;
-      gap = p.gap;
-    }
-  return gap;
-}
-
-// Where a function that starts at `value` > 0 comes down to zero, by false position (Illinois);
-// `to` if it is still positive there.
-template <class Function>
-double first_zero(const Function& f, double from, double value, double to) {
-  constexpr int kMost = 60;
-  double a = from, fa = value, b = to, fb = f(to);
-  if (!(fb < 0)) return to;
-  for (int k = 0; k < kMost; ++k) {
-    const double x = std::clamp((a * fb - b * fa) / (fb - fa), a, b);
-    if (x <= a || x >= b) break;
-    const double fx = f(x);
-    if (fx >= 0) {
-      a = x;
-      fa = fx;
-      fb *= 0.5;
-      if (fx <= 1e-15 * value) break;
-    } else {
-      b = x;
-      fb = fx;
-      fa *= 0.5;
-    }
-  }
-  return a;
 }
 
 }  // namespace
