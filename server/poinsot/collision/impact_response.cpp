@@ -11,7 +11,7 @@ namespace {
 // Of the contact step: a bounce whose flight would be shorter is the last one. A ball that comes to
 // rest by it is wrong by g (kRestFlight/240 s)²/8 of height, 3e-10 m.
 constexpr double kRestFlight = 4e-3;
-// Of the touch distance: corners of a face that arrive together are that close to one another.
+// Of the touch distance: pairs of a cluster that meet at one instant are that close.
 constexpr double kTogether = 4;
 
 Vec3 velocity_at(const ContactBody& body, const Vec3& point) {
@@ -74,7 +74,9 @@ void ImpactResponse::add_points(CollisionState& state, int index, double t,
   p.b = b;
   p.restitution = record.restitution;
   p.friction = record.friction;
-  find_manifolds(shape_a, pose_a, shape_b, pose_b, kTogether * state.touch(record), manifolds_);
+  // Corners of a face that arrive together do so to the rounding of their motion.
+  const double together = std::max(kTogether * state.touch(record), kSameGap * record.size);
+  find_manifolds(shape_a, pose_a, shape_b, pose_b, together, manifolds_);
   for (const Manifold& manifold : manifolds_)
     for (int k = 0; k < manifold.count; ++k) {
       p.normal = manifold.normal;
