@@ -64,13 +64,16 @@ ContactStep::ContactStep(const CollisionDef& def) : def_(def) {
   solver_.sweeps = def.iterations;
 }
 
-void ContactStep::begin(const CollisionState& state, double h) {
+void ContactStep::begin(const CollisionState& state, double h, bool foresees) {
   for (const Eigen::Index column : columns_) local_of_[static_cast<std::size_t>(column)] = -1;
   local_of_.resize(static_cast<std::size_t>(state.world().size()), -1);
   h_ = h;
+  foresees_ = foresees;
+  awaited_.clear();
   columns_.clear();
   travel_.clear();
   room_.clear();
+  fastest_.clear();  // of the last sub-step: without contacts there is none to cut this one by
   records_.clear();
   first_point_.assign(1, 0);
   points_.clear();
@@ -137,6 +140,10 @@ void ContactStep::add(CollisionState& state, int index) {
       p.friction_impulse.setZero();
       continue;
     }
+    if (!foresees_ && comes_in(state, record, p)) {
+      awaited_.push_back({index, p});
+      continue;
+    }
     points_.push_back({static_cast<int>(records_.size()), static_cast<int>(k)});
     Contact c;
     c.a = static_cast<int>(a);
@@ -152,6 +159,18 @@ void ContactStep::add(CollisionState& state, int index) {
   }
   records_.push_back(index);
   first_point_.push_back(points_.size());
+}
+
+bool ContactStep::comes_in(const CollisionState& state, const PairRecord& record,
+                           const PairPoint& p) const {
+  if (p.gap <= state.touch(record)) return false;
+  const World& world = state.world();
+  const auto velocity = [&](Eigen::Index i) -> Vec3 {
+    return linear_velocity(world, i) +
+           angular_velocity(world, i).cross(p.position - position(world.y, i));
+  };
+  const double speed = -p.normal.dot(velocity(record.a) - velocity(record.b));
+  return speed > kRestingSteps * h_ * world.gravity.norm();
 }
 
 // The points of a pair where its bodies are now; those that continue old ones keep what they know.

@@ -5,6 +5,7 @@
 
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/collision/mesh_pairs.h"
+#include "poinsot/collision/proximity.h"
 #include "poinsot/collision/reach.h"
 
 namespace poinsot {
@@ -37,6 +38,51 @@ SearchResult search_by(ImpactSearchKind kind, const CoursePair& pair, const Sear
     default:
       return search_conservative(pair, span, memory, work);
   }
+}
+
+// Of the point of a manifold that is, seen from either body, where `point` was [m].
+double gap_of_point(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                    const PairPoint& point, std::vector<Manifold>& manifolds) {
+  const double reach = a.bounding_radius < b.bounding_radius ? a.bounding_radius : b.bounding_radius;
+  find_manifolds(a, pose_a, b, pose_b, reach, manifolds);
+  double nearest = std::numeric_limits<double>::infinity(), gap = nearest;
+  for (const Manifold& manifold : manifolds)
+    for (int k = 0; k < manifold.count; ++k) {
+      const ManifoldPoint& p = manifold.points[static_cast<std::size_t>(k)];
+      const Vec3 half = (0.5 * p.gap) * manifold.normal;
+      const double from_a = (pose_a.inverse() * Vec3(p.point + half) - point.anchor_a).norm();
+      const double from_b = (pose_b.inverse() * Vec3(p.point - half) - point.anchor_b).norm();
+      const double distance = std::min(from_a, from_b);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      gap = p.gap;
+    }
+  return gap;
+}
+
+// Where a function that starts at `value` > 0 comes down to zero, by false position (Illinois);
+// `to` if it is still positive there.
+template <class Function>
+double first_zero(const Function& f, double from, double value, double to) {
+  constexpr int kMost = 60;
+  double a = from, fa = value, b = to, fb = f(to);
+  if (!(fb < 0)) return to;
+  for (int k = 0; k < kMost; ++k) {
+    const double x = std::clamp((a * fb - b * fa) / (fb - fa), a, b);
+    if (x <= a || x >= b) break;
+    const double fx = f(x);
+    if (fx >= 0) {
+      a = x;
+      fa = fx;
+      fb *= 0.5;
+      if (fx <= 1e-15 * value) break;
+    } else {
+      b = x;
+      fb = fx;
+      fa *= 0.5;
+    }
+  }
+  return a;
 }
 
 }  // namespace
@@ -230,7 +276,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   constexpr int kAttempts = 2;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const Stopwatch::WallLap lap(contact_wall_s);
-    step_.begin(state, h);
+    step_.begin(state, h, false);
     for (const int r : frame.island.records) {
       if (!state.pairs[r].standing) continue;
       for (const int body : {state.pairs[r].a, state.pairs[r].b})
@@ -274,6 +320,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
       }
     }
   }
+  await_points(frame, t, first);
   advance_movers(frame, t, first.time);
   note(frame, outcome, books);
   for (std::size_t k = 0; k < step_.records().size(); ++k) {
@@ -285,6 +332,25 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   if (afford(frame, frame.budget, 1 + static_cast<double>(step_.points()) / kPointsPerImpact))
     meet(frame, first);
   return first.time;
+}
+
+// The first arrival of a corner of a pair that touches already, if it is earlier than `first`.
+void IslandMotion::await_points(Frame& frame, double t, Meet& first) {
+  CollisionState& state = frame.state;
+  for (const ContactStep::Awaited& awaited : step_.awaited()) {
+    const PairRecord& record = state.pairs[awaited.record];
+    const Collider& a = state.colliders[static_cast<std::size_t>(record.pair.a)];
+    const Collider& b = state.colliders[static_cast<std::size_t>(record.pair.b)];
+    const auto gap_at = [&](double time) {
+      const Pose pose_a = collider_pose(a, state.moving_pose(record.a, time, true, worker_).pose);
+      const Pose pose_b = collider_pose(b, state.moving_pose(record.b, time, true, worker_).pose);
+      return gap_of_point(a, pose_a, b, pose_b, awaited.point, manifolds_);
+    };
+    const double arrival = first_zero(gap_at, t, awaited.point.gap, first.time);
+    if (arrival >= first.time) continue;
+    first.record = awaited.record;
+    first.time = arrival;
+  }
 }
 
 void IslandMotion::advance_movers(Frame& frame, double t, double to) {
@@ -310,7 +376,7 @@ double IslandMotion::step_foreseeing(Frame& frame, double t) {
   double to;
   {
     const Stopwatch::WallLap lap(contact_wall_s);
-    step_.begin(state, h);
+    step_.begin(state, h, true);
     for (const int r : frame.island.records) {
       const PairRecord& record = state.pairs[r];
       for (const int body : {record.a, record.b})
@@ -344,7 +410,7 @@ void IslandMotion::note(Frame& frame, const ContactStep::Outcome& outcome,
 }
 
 bool IslandMotion::proves_rest(CollisionState& state, const Island& island) {
-  step_.begin(state, state.def.contact_step);
+  step_.begin(state, state.def.contact_step, true);
   for (const int r : island.records)
     if (state.pairs[r].standing) step_.add(state, r);
   return step_.holds_all(state, island.bodies) && step_.proves_rest(state);
