@@ -66,5 +66,15 @@ TEST(Json, OfARunThatFlewApartCanBeParsed) {
   EXPECT_TRUE(Json::parse(to_json(result, 0))["rows"][0]["position_error"].is_null());
 }
 
+TEST(Json, HasTheImpactSearches) {
+  StudyResult result = test::full_result();
+  EXPECT_TRUE(Json::parse(to_json(result, 0))["impact_searches"].empty());
+  result.searches.resize(1);
+  result.searches[0].impacts = 3;
+  const Json row = Json::parse(to_json(result, 0))["impact_searches"][0];
+  EXPECT_EQ(row["search"], "conservative");
+  EXPECT_EQ(row["per_second"]["impacts"], 3);
+}
+
 }  // namespace
 }  // namespace poinsot

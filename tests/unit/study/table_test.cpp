@@ -106,6 +106,21 @@ TEST(ReferenceText, WarnsIfTheMethodsAreOne) {
   EXPECT_NE(reference_text(result).find("share a method"), std::string::npos);
 }
 
+TEST(Table, ShowsImpactSearchesIfAnythingMet) {
+  StudyResult result = test::full_result();
+  EXPECT_EQ(to_text(result).find("impact search"), std::string::npos);
+  result.searches.resize(2);
+  result.searches[1].search = ImpactSearchKind::backtracking;
+  result.searches[1].of_the_scene = true;
+  result.searches[1].difference = {0.125, 0.25};
+  result.searches[1].poses = 4321;
+  const std::string text = to_text(result);
+  const std::size_t row = text.find(" > backtracking");
+  ASSERT_NE(row, std::string::npos);
+  const std::string line = text.substr(row, text.find('\n', row) - row);
+  for (const char* word : {"0.12", "0.25", "4321"}) EXPECT_NE(line.find(word), std::string::npos);
+}
+
 TEST(CheapestText, NamesTheSettingOrSaysThatThereIsNone) {
   const StudyResult result = test::full_result();
   EXPECT_NE(cheapest_text(result, 1e-6).find("exact default"), std::string::npos);
