@@ -113,8 +113,13 @@ Feature box_face(const Vec3& half, const Vec3& d) {
 
 Feature convex_face(const Convex& convex, const Vec3& d) {
   const Convex::Face* best = &convex.faces[0];
-  for (const Convex::Face& face : convex.faces)
-    if (face.normal.dot(d) > best->normal.dot(d)) best = &face;
+  double most = best->normal.dot(d);
+  for (const Convex::Face& face : convex.faces) {
+    const double along = face.normal.dot(d);
+    if (along <= most) continue;
+    most = along;
+    best = &face;
+  }
   Feature f;  // a face of more corners is thinned evenly
   const std::size_t n = best->loop.size();
   const std::size_t kept = std::min<std::size_t>(n, Feature::kMaxCorners);

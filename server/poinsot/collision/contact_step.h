@@ -30,10 +30,18 @@ class ContactStep {
 
   explicit ContactStep(const CollisionDef& def);
 
-  // Of the pairs that follow; bodies are at `time`. Pairs stay in the list until begin().
-  void begin(const CollisionState& state, double h);
+  // A point of a pair that touches elsewhere, on its way in too fast to be held: its arrival is an
+  // impact of its own, which the pair's other points do not foresee.
+  struct Awaited {
+    int record;  // of the state's pairs
+    PairPoint point;
+  };
+
+  // Of the pairs that follow. If impacts are not foreseen, points on their way in are awaited.
+  void begin(const CollisionState& state, double h, bool foresees);
   void add(CollisionState& state, int record);
   std::size_t points() const { return contacts_.size(); }
+  std::span<const Awaited> awaited() const { return awaited_; }
 
   // Moves bodies, changes momenta and fills the contact wrenches of the simulation layer.
   Outcome solve(CollisionState& state, Books& books);
@@ -69,8 +77,7 @@ class ContactStep {
 
   int local(const CollisionState& state, Eigen::Index column);
   double margin(const CollisionState& state, const PairRecord& record);
-  void measure(CollisionState& state, PairRecord& record, double margin);
-  void recall(PairContact& contact, double size);
+  bool comes_in(const CollisionState& state, const PairRecord& record, const PairPoint& p) const;
   void gather(const World& world);
   void push_out(CollisionState& state, Books& books);
   bool choose_targets(CollisionState& state);
@@ -83,6 +90,8 @@ class ContactStep {
   CollisionDef def_;
   SequentialImpulses solver_;
   double h_ = 0;
+  bool foresees_ = true;
+  std::vector<Awaited> awaited_;
   std::vector<int> local_of_;          // per column; −1: none
   std::vector<Eigen::Index> columns_;  // per local body
   std::vector<double> travel_, room_;  // [m] per local body: foreseen, and more that does no harm

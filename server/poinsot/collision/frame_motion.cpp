@@ -132,7 +132,8 @@ void FrameMotion::set_bounds(double t_end) {
     bool inside = bounded_[k] != state_.stamp[k];  // boxes that were made with room may do
     for (const Collider& collider : state_.colliders_of(i)) {
       if (!inside) break;
-      const Aabb& bound = state_.bound[static_cast<std::size_t>(&collider - state_.colliders.data())];
+      const Aabb& bound =
+          state_.bound[static_cast<std::size_t>(&collider - state_.colliders.data())];
       const Aabb reach = reach_box(state_, collider, world.time, t_end);
       const Vec3 spare = (bound.high - bound.low) - (reach.high - reach.low);
       inside = bound.contains(reach) && spare.maxCoeff() <= 2 * kSpare * collider.bounding_radius;
@@ -319,7 +320,8 @@ void FrameMotion::put_to_sleep() {
     tired_[k] = sleep_.may_sleep(state_, islands[k]) ? 1 : 0;
   team_.run(islands.size(), [&](std::size_t k, int thread) {
     if (tired_[k] != 0)
-      tired_[k] = motions_[static_cast<std::size_t>(thread)].proves_rest(state_, islands[k]) ? 1 : 0;
+      tired_[k] =
+          motions_[static_cast<std::size_t>(thread)].proves_rest(state_, islands[k]) ? 1 : 0;
   });
   for (std::size_t k = 0; k < islands.size(); ++k)
     if (tired_[k] != 0) sleep_.lay_down(state_, islands[k]);

@@ -5,6 +5,7 @@
 
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/collision/mesh_pairs.h"
+#include "poinsot/collision/point_arrival.h"
 #include "poinsot/collision/reach.h"
 
 namespace poinsot {
@@ -230,7 +231,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   constexpr int kAttempts = 2;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const Stopwatch::WallLap lap(contact_wall_s);
-    step_.begin(state, h);
+    step_.begin(state, h, false);
     for (const int r : frame.island.records) {
       if (!state.pairs[r].standing) continue;
       for (const int body : {state.pairs[r].a, state.pairs[r].b})
@@ -274,6 +275,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
       }
     }
   }
+  await_points(frame, t, first);
   advance_movers(frame, t, first.time);
   note(frame, outcome, books);
   for (std::size_t k = 0; k < step_.records().size(); ++k) {
@@ -285,6 +287,25 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   if (afford(frame, frame.budget, 1 + static_cast<double>(step_.points()) / kPointsPerImpact))
     meet(frame, first);
   return first.time;
+}
+
+// The first arrival of a corner of a pair that touches already, if it is earlier than `first`.
+void IslandMotion::await_points(Frame& frame, double t, Meet& first) {
+  CollisionState& state = frame.state;
+  for (const ContactStep::Awaited& awaited : step_.awaited()) {
+    const PairRecord& record = state.pairs[awaited.record];
+    const Collider& a = state.colliders[static_cast<std::size_t>(record.pair.a)];
+    const Collider& b = state.colliders[static_cast<std::size_t>(record.pair.b)];
+    const auto gap_at = [&](double time) {
+      const Pose pose_a = collider_pose(a, state.moving_pose(record.a, time, true, worker_).pose);
+      const Pose pose_b = collider_pose(b, state.moving_pose(record.b, time, true, worker_).pose);
+      return gap_of_point(a, pose_a, b, pose_b, awaited.point, manifolds_);
+    };
+    const double arrival = first_zero(gap_at, t, awaited.point.gap, first.time);
+    if (arrival >= first.time) continue;
+    first.record = awaited.record;
+    first.time = arrival;
+  }
 }
 
 void IslandMotion::advance_movers(Frame& frame, double t, double to) {
@@ -310,7 +331,7 @@ double IslandMotion::step_foreseeing(Frame& frame, double t) {
   double to;
   {
     const Stopwatch::WallLap lap(contact_wall_s);
-    step_.begin(state, h);
+    step_.begin(state, h, true);
     for (const int r : frame.island.records) {
       const PairRecord& record = state.pairs[r];
       for (const int body : {record.a, record.b})
@@ -320,7 +341,9 @@ double IslandMotion::step_foreseeing(Frame& frame, double t) {
     }
     if (!frame.island.strays.empty()) return t;
     const ContactStep::Outcome outcome = step_.solve(state, books);
-    const double part = std::max(kLeastPart, step_.sound_part(state));
+    // Of a whole sub-step, so that what is left of the frame cannot be cut for ever.
+    const double least = std::min(1.0, kLeastPart * state.def.contact_step / h);
+    const double part = std::max(least, step_.sound_part(state));
     to = part < 1 ? t + part * h : (steps == 1 ? frame.t_end : t + h);
     note(frame, outcome, books);
   }
@@ -342,7 +365,7 @@ void IslandMotion::note(Frame& frame, const ContactStep::Outcome& outcome,
 }
 
 bool IslandMotion::proves_rest(CollisionState& state, const Island& island) {
-  step_.begin(state, state.def.contact_step);
+  step_.begin(state, state.def.contact_step, true);
   for (const int r : island.records)
     if (state.pairs[r].standing) step_.add(state, r);
   return step_.holds_all(state, island.bodies) && step_.proves_rest(state);

@@ -60,6 +60,7 @@ class IslandMotion {
   bool is_slow(Frame& frame, const PairRecord& record, double t, double h);
   bool afford(Frame& frame, double& budget, double cost);
   void meet(Frame& frame, const Meet& at);
+  void await_points(Frame& frame, double t, Meet& first);
   void advance_movers(Frame& frame, double t, double to);
   void watch(Frame& frame, Eigen::Index i, double t);
   void note(Frame& frame, const ContactStep::Outcome& outcome, const ContactStep::Books& books);
@@ -70,6 +71,7 @@ class IslandMotion {
 
   SimulationWorker worker_;
   std::vector<int> triangles_;
+  std::vector<Manifold> manifolds_;
   ContactStep step_;
   ImpactResponse response_;
 };

@@ -12,6 +12,7 @@
 #include "poinsot/collision/mesh_pairs.h"
 #include "poinsot/collision/pair_table.h"
 #include "poinsot/collision/proximity_fcl.h"
+#include "poinsot/collision/round_gap.h"
 
 namespace poinsot {
 namespace {
@@ -120,6 +121,12 @@ void deepest_mesh_manifold(const Collider& a, const Pose& pose_a, const Collider
   if (!all.empty()) manifold = all.front();
 }
 
+Gap gap_of_convex(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                  const GapHint* hint) {
+  Gap gap;
+  return round_gap(a, pose_a, b, pose_b, gap) ? gap : gap_of_cores(a, pose_a, b, pose_b, hint);
+}
+
 }  // namespace
 
 void find_manifold(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
@@ -184,7 +191,7 @@ Gap find_gap(const Collider& a, const Pose& pose_a, const Collider& b, const Pos
   const char by = kernel(a, b);
   const Gap gap = by == 'H'   ? gap_to_half_space(a, pose_a, std::get<HalfSpace>(b.shape), pose_b)
                   : by == 'M' ? gap_to_mesh(a, pose_a, b, pose_b)
-                              : gap_of_cores(a, pose_a, b, pose_b, hint);
+                              : gap_of_convex(a, pose_a, b, pose_b, hint);
   if (hint) *hint = {gap.normal, true};
   return gap;
 }

@@ -7,8 +7,8 @@
 namespace poinsot {
 namespace {
 
-constexpr double kSlow = 1e-4;     // [m/s]
-constexpr double kSlower = 0.99;   // of the speed when it was last looked at
+constexpr double kSlow = 1e-4;       // [m/s]
+constexpr double kSlower = 0.99;     // of the speed when it was last looked at
 constexpr std::uint64_t kEvery = 8;  // frames; islands take turns
 
 bool same(const HeldWrench& a, const HeldWrench& b) {
@@ -18,8 +18,7 @@ bool same(const HeldWrench& a, const HeldWrench& b) {
 
 }  // namespace
 
-Sleep::Sleep(std::size_t bodies)
-    : speed_(bodies, -1), group_of_(bodies, -1), next_(bodies, -1) {}
+Sleep::Sleep(std::size_t bodies) : speed_(bodies, -1), group_of_(bodies, -1), next_(bodies, -1) {}
 
 bool Sleep::may_sleep(const CollisionState& state, const Island& island) {
   const World& world = state.world();

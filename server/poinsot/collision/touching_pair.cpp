@@ -58,7 +58,8 @@ std::optional<SearchResult> start_search(PairMotion& motion, NearestAxis& axis,
       return meeting_at(motion, axis, Meeting::impact);
     case Touching::leaves:
       return std::nullopt;
-    case Touching::stays:
+    case Touching::stays:  // overlapping bodies have to be pushed apart
+      if (start.gap < -span.touch) break;
       return no_meeting(span.to);
     case Touching::pressed:
       break;

@@ -43,6 +43,7 @@ class PresentationLayer {
   // left to whoever sends it.
   const PoseSnapshot& snapshot() const { return snapshot_; }
   const FrameReport& report() const { return report_; }
+  const CollisionReport& collision_report() const { return collision_.report(); }
   // What moved each dynamic body in the last frame, in the order of the snapshot.
   std::span<const Method> body_methods() const { return body_methods_; }
   // Located in the last frame. session is left to whoever sends them.

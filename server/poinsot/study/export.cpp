@@ -73,6 +73,24 @@ Json json_of(const Row& row, const ReferenceInfo& reference) {
   return json;
 }
 
+Json json_of(const SearchRow& row) {
+  return {{"search", name_of<ImpactSearchKind>(kImpactSearchNames, row.search)},
+          {"of_the_scene", row.of_the_scene},
+          {"position_difference", row.difference.position},
+          {"orientation_difference", row.difference.orientation},
+          {"energy_error", row.energy_error},
+          {"per_second",
+           {{"impacts", row.impacts},
+            {"searches", row.searches},
+            {"poses", row.poses},
+            {"gaps", row.gaps}}},
+          {"cpu_us_per_s",
+           {{"simulation", row.cost.simulation / kMicro},
+            {"collision", row.cost.collision / kMicro},
+            {"contact", row.cost.contact / kMicro}}},
+          {"runs", row.runs}};
+}
+
 }  // namespace
 
 std::string to_csv(const StudyResult& result) {
@@ -112,6 +130,8 @@ std::string to_json(const StudyResult& result, double wanted_error) {
   for (const Row& row : result.rows) json["rows"].push_back(json_of(row, r));
   json["skipped"] = Json::array();
   for (const Setting& setting : result.skipped) json["skipped"].push_back(json_of(setting));
+  json["impact_searches"] = Json::array();
+  for (const SearchRow& row : result.searches) json["impact_searches"].push_back(json_of(row));
   json["interrupted"] = result.interrupted;
   if (wanted_error > 0) {
     const Row* const row = cheapest(result, wanted_error);

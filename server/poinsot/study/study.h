@@ -56,6 +56,21 @@ struct Row {
   bool pareto = false;             // see pareto.h
 };
 
+// One impact search, with the scene's integrator.
+struct SearchRow {
+  ImpactSearchKind search = ImpactSearchKind::conservative;
+  bool of_the_scene = false;
+  PoseError difference;     // from the run with `conservative`, largest up to the horizon
+  double energy_error = 0;  // [-] relative, largest
+  Cost cost;                // of the run with the median cost of simulation
+  std::uint32_t runs = 0;   // that the median is of
+  // Per simulated second.
+  double impacts = 0;   // located
+  double searches = 0;  // of a pair
+  double poses = 0;     // evaluations of a pair's poses that they took
+  double gaps = 0;      // queries of the narrow phase
+};
+
 enum class HorizonEnd {
   asked,         // the reference exists as far as was asked for
   disagreement,  // the runs part
@@ -81,9 +96,10 @@ struct StudyResult {
   std::uint64_t horizon = 0;  // frames up to which errors are measured; 0: there is no reference
   std::uint64_t stride = 1;   // every so many frames are compared
   ReferenceInfo reference;
-  std::vector<Row> rows = {};         // in the order of the families
-  std::vector<Setting> skipped = {};  // the budget did not allow them; likewise
-  bool interrupted = false;           // not all was tried
+  std::vector<Row> rows = {};            // in the order of the families
+  std::vector<Setting> skipped = {};     // the budget did not allow them; likewise
+  std::vector<SearchRow> searches = {};  // empty if nothing meets
+  bool interrupted = false;              // not all was tried
   double horizon_time() const { return static_cast<double>(horizon) / frame_rate; }  // [s]
 };
 

@@ -6,6 +6,7 @@
 
 #include "poinsot/base/error.h"
 #include "poinsot/study/budget.h"
+#include "poinsot/study/compare_searches.h"
 #include "poinsot/study/measure.h"
 #include "poinsot/study/pareto.h"
 #include "poinsot/study/reference.h"
@@ -89,9 +90,10 @@ StudyResult sweep(const Scene& scene, const SweepOptions& options, const ShowPro
   if (bodies == 0) throw Error("nothing moves in this scene: there is nothing to study");
   const std::vector<Setting> settings = settings_for(scene);
   const std::vector<Setting> candidates = reference_settings(scene);
-  const double runs = static_cast<double>(candidates.size() + settings.size());
-  const double reference_part = static_cast<double>(candidates.size()) / runs;
-  Budget budget(options.budget, candidates.size() + settings.size());
+  constexpr std::size_t kSearches = kImpactSearchNames.size();
+  const std::size_t all = candidates.size() + settings.size() + kSearches;
+  const double reference_part = static_cast<double>(candidates.size()) / static_cast<double>(all);
+  Budget budget(options.budget, all);
 
   const Reference reference =
       make_reference(scene, candidates,
@@ -108,7 +110,13 @@ StudyResult sweep(const Scene& scene, const SweepOptions& options, const ShowPro
                      .horizon = reference.frames,
                      .stride = reference.stride,
                      .reference = reference.info};
-  if (reference.frames > 0) measure_all(result, scene, settings, reference, budget, show, stop);
+  if (reference.frames > 0) {
+    measure_all(result, scene, settings, reference, budget, show, stop);
+    show(budget.shared_out(), "impact searches");
+    if (!stop.stop_requested())
+      result.searches = compare_searches(scene, reference.frames, reference.stride,
+                                         {budget.deadline(kSearches), stop});
+  }
   result.interrupted = stop.stop_requested();
   mark_pareto(result);
   return result;

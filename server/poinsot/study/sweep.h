@@ -1,5 +1,5 @@
-// Sweep: the whole study of a scene. Reference first, then every setting up to its horizon, in
-// equal shares of the time budget.
+// Sweep: the whole study of a scene. Reference first, then every setting up to its horizon, then
+// the impact searches, in equal shares of the time budget.
 
 #pragma once
 

@@ -53,6 +53,35 @@ std::string table(const StudyResult& result) {
   return text;
 }
 
+std::string count_text(double count) {
+  return count >= 1000 ? fmt::format("{:.0f}", count) : fmt::format("{:.3g}", count);
+}
+
+std::string search_table(const StudyResult& result) {
+  if (result.searches.empty()) return {};
+  std::string text = fmt::format("\n{:<16} {:^31} {:^34} {:>19}\n", "", "largest difference",
+                                 "per simulated second", "CPU [us/s]");
+  text += fmt::format("   {:<13} {:>9} {:>11} {:>9} {:>8} {:>8} {:>8} {:>8} {:>10} {:>9}\n",
+                      "impact search", "position", "orientation", "energy", "impacts", "searches",
+                      "poses", "gaps", "simulation", "contacts");
+  for (const SearchRow& row : result.searches) {
+    const bool is_reference = &row == &result.searches.front();
+    const auto difference = [&](double x) {
+      return is_reference ? std::string("-") : fmt::format("{:.2g}", x);
+    };
+    text += fmt::format(
+        " {} {:<13} {:>9} {:>11} {:>9} {:>8} {:>8} {:>8} {:>8} {:>10} {:>9}\n",
+        row.of_the_scene ? '>' : ' ', name_of<ImpactSearchKind>(kImpactSearchNames, row.search),
+        difference(row.difference.position), difference(row.difference.orientation),
+        fmt::format("{:.2g}", row.energy_error), count_text(row.impacts), count_text(row.searches),
+        count_text(row.poses), count_text(row.gaps), cost_text(row.cost.simulation),
+        cost_text(row.cost.collision + row.cost.contact));
+  }
+  return text +
+         "Difference: from conservative, in m and rad, with the scene's integrator. Poses and "
+         "gaps: evaluations of\nthe searches.\n";
+}
+
 // "title: a, b, c", broken at kColumns.
 std::string list_text(const std::string& title, const std::vector<std::string>& words) {
   if (words.empty()) return {};
@@ -142,7 +171,7 @@ std::string to_text(const StudyResult& result) {
   text += result.stride > 1 ? fmt::format(", every {} compared\n", result.stride) : "\n";
   text += reference_text(result);
   if (result.rows.empty()) return text;
-  return text + "\n" + table(result) + "\n" + notes(result);
+  return text + "\n" + table(result) + "\n" + notes(result) + search_table(result);
 }
 
 std::string cheapest_text(const StudyResult& result, double wanted) {
