@@ -5,6 +5,7 @@
 
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/collision/mesh_pairs.h"
+#include "poinsot/collision/mesh_surface.h"
 #include "poinsot/collision/point_arrival.h"
 #include "poinsot/collision/reach.h"
 
@@ -38,6 +39,20 @@ SearchResult search_by(ImpactSearchKind kind, const CoursePair& pair, const Sear
     default:
       return search_conservative(pair, span, memory, work);
   }
+}
+
+// The normal of a triangle in W, on the side where most of the other shape is: a triangle has no
+// inside, so that which side a touching shape comes from has to be known beforehand.
+Vec3 side_of_face(const Collider& triangle, const Course& course, const Collider& other,
+                  const Course& course_of_other, double t) {
+  const Pose mesh = collider_pose(triangle, course.at(t));
+  const Pose pose = collider_pose(other, course_of_other.at(t));
+  const Vec3 n = mesh.q * triangle.surface->normal(triangle.triangle);
+  const double face = n.dot(mesh * triangle.surface->corners(triangle.triangle)[0]);
+  const auto reach = [&](const Vec3& d) {
+    return d.dot(pose * support(other, pose.q.conjugate() * d)) + other.core_radius;
+  };
+  return reach(n) - face >= face + reach(-n) ? n : Vec3(-n);
 }
 
 }  // namespace
@@ -87,7 +102,9 @@ SearchResult IslandMotion::search_mesh(CollisionState& state, const CoursePair& 
     const Collider triangle = triangle_collider(mesh, k);
     const CoursePair one{mesh_is_a ? triangle : pair.a, pair.course_a,
                          mesh_is_a ? pair.b : triangle, pair.course_b};
-    SearchMemory memory;
+    const Vec3 face =
+        side_of_face(triangle, course, other, mesh_is_a ? pair.course_b : pair.course_a, span.from);
+    SearchMemory memory{mesh_is_a ? Vec3(-face) : face};
     const SearchResult found =
         search_by(state.def.impact_search, one, {span.from, first.time, span.touch}, memory, work);
     if (found.meeting == Meeting::none) continue;
@@ -224,7 +241,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   CollisionState& state = frame.state;
   const int steps = step_count(frame.t_end - t, state.def.contact_step);
   const double h = (frame.t_end - t) / steps;
-  const double to = steps == 1 ? frame.t_end : t + h;
+  double to = steps == 1 ? frame.t_end : t + h;
   ContactStep::Books books;
   ContactStep::Outcome outcome;
   Meet first;
@@ -246,6 +263,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
     for (const Eigen::Index i : step_.movers())  // of the attempt before
       state.simulation.contact_wrenches()[static_cast<std::size_t>(i)] = Wrench{};
     outcome = step_.solve(state, books);
+    if (const double part = sound_part(state, h); part < 1) to = t + part * h;
     for (const Eigen::Index i : step_.movers()) {
       state.bring(i, t, worker_, frame.island.result.tally);
       state.change_course(i);
@@ -322,6 +340,12 @@ void IslandMotion::advance_movers(Frame& frame, double t, double to) {
   }
 }
 
+double IslandMotion::sound_part(const CollisionState& state, double h) const {
+  // Of a whole sub-step, so that what is left of the frame cannot be cut for ever.
+  const double least = std::min(1.0, kLeastPart * state.def.contact_step / h);
+  return std::max(least, step_.sound_part(state));
+}
+
 double IslandMotion::step_foreseeing(Frame& frame, double t) {
   CollisionState& state = frame.state;
   const int steps = step_count(frame.t_end - t, state.def.contact_step);
@@ -341,9 +365,7 @@ double IslandMotion::step_foreseeing(Frame& frame, double t) {
     }
     if (!frame.island.strays.empty()) return t;
     const ContactStep::Outcome outcome = step_.solve(state, books);
-    // Of a whole sub-step, so that what is left of the frame cannot be cut for ever.
-    const double least = std::min(1.0, kLeastPart * state.def.contact_step / h);
-    const double part = std::max(least, step_.sound_part(state));
+    const double part = sound_part(state, h);
     to = part < 1 ? t + part * h : (steps == 1 ? frame.t_end : t + h);
     note(frame, outcome, books);
   }

@@ -64,6 +64,7 @@ class IslandMotion {
   void advance_movers(Frame& frame, double t, double to);
   void watch(Frame& frame, Eigen::Index i, double t);
   void note(Frame& frame, const ContactStep::Outcome& outcome, const ContactStep::Books& books);
+  double sound_part(const CollisionState& state, double h) const;
   void bring_all(Frame& frame, double t);
 
   SearchResult search_mesh(CollisionState& state, const CoursePair& pair, const SearchSpan& span,
