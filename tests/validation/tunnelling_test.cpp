@@ -183,6 +183,7 @@ TEST(Dumbbells, ThatSpinThroughOneAnotherAlwaysMeet) {
       impacts += layer.report().impacts;
       EXPECT_LE(overlap(scene, std::as_const(layer).world()), 1e-6) << shot << ", frame " << frame;
     }
+    EXPECT_EQ(layer.simulation().quarantined(), 0u) << shot;
     EXPECT_GE(impacts, 1u) << shot;  // the rods' middles meet head on
     const World& world = std::as_const(layer).world();
     EXPECT_NEAR((momentum(world.y, 0) + momentum(world.y, 1)).norm(), 0,

@@ -12,7 +12,7 @@ constexpr double kRestingSteps = 2.0;
 // Slower ones still are left to the standing contact, which stops them within the sub-step.
 constexpr double kImpactSteps = 0.25;
 // Planes of contact hold while the bodies turn their surfaces by less than this of the size.
-constexpr double kTurned = 0.25;
+constexpr double kTurned = 0.15;
 // A point is inside its cone by this much, relative: below it an equilibrium is not proven.
 constexpr double kInsideCone = 1e-3;
 
@@ -94,6 +94,10 @@ bool ContactStep::proves_rest(CollisionState& state) {
   const World& world = state.world();
   const double still = def_.sleep_acceleration * h_;
   if (contacts_.empty()) return false;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {  // what is pushed apart moves
+    const double size = state.pairs[records_[static_cast<std::size_t>(points_[i].record)]].size;
+    if (contacts_[i].gap < -2 * def_.allowed_penetration * size) return false;
+  }
   gather(world);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];

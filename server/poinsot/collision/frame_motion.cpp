@@ -22,6 +22,8 @@ constexpr double kThrown = 2;
 // Restarts widen the boxes of strays; from this one on they hold everything.
 constexpr int kLastNarrow = 6;
 constexpr double kEverywhere = 1e9;  // [m]
+// No motion that is any needs more; what is left of a frame then ends all the same.
+constexpr int kMostRestarts = 16;
 
 }  // namespace
 
@@ -254,6 +256,7 @@ void FrameMotion::run_islands(double t_end, CollisionReport& report, CollisionTi
   const Stopwatch::WallLap lap(times.collision.wall_s);
   for (int attempt = 0;; ++attempt) {
     const std::span<Island> islands = islands_.all();
+    for (IslandMotion& motion : motions_) motion.watches = attempt < kMostRestarts;
     team_.run(islands.size(), [&](std::size_t k, int thread) {
       Island& island = islands[k];
       if (island.done) return;

@@ -208,6 +208,7 @@ void IslandMotion::meet(Frame& frame, const Meet& at) {
 
 // A body with a new course: whether it stays where its island can look after it.
 void IslandMotion::watch(Frame& frame, Eigen::Index i, double t) {
+  if (!watches) return;
   CollisionState& state = frame.state;
   for (const int r : state.pairs.of(i)) {
     const PairRecord& record = state.pairs[r];
@@ -217,7 +218,9 @@ void IslandMotion::watch(Frame& frame, Eigen::Index i, double t) {
   }
   for (const Collider& collider : state.colliders_of(i)) {
     const auto k = static_cast<std::size_t>(&collider - state.colliders.data());
-    if (state.bound[k].contains(reach_box(state, collider, t, frame.t_end))) continue;
+    const Aabb reach = reach_box(state, collider, t, frame.t_end);
+    const bool sound = reach.low.allFinite() && reach.high.allFinite();  // or it will be frozen
+    if (!sound || state.bound[k].contains(reach)) continue;
     frame.island.strays.push_back(i);
     return;
   }
