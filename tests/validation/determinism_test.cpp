@@ -38,6 +38,32 @@ TEST(Determinism, TwoRunsOfAHeapAgreeInEveryBitOfEveryFrame) {
   }
 }
 
+// A pile of columns: several islands, impacts, contacts that last, and sleep.
+Scene pile(int threads, bool sleeping) {
+  std::vector<BodyDef> bodies = {test::ground()};
+  for (int x = 0; x < 3; ++x)
+    for (int y = 0; y < 3; ++y)
+      for (int z = 0; z < 4; ++z)
+        bodies.push_back(test::body("box" + std::to_string(bodies.size()), Box{{1, 1, 1}},
+                                    {1.5 * x + 0.01 * z, 1.5 * y - 0.01 * z, 0.6 + 1.1 * z}));
+  Scene scene = test::scene(std::move(bodies));
+  scene.collision.threads = threads;
+  scene.collision.sleeping = sleeping;
+  return scene;
+}
+
+TEST(Determinism, OneThreadAndTwoAgreeInEveryBitOfAThousandFrames) {
+  for (const bool sleeping : {true, false}) {
+    CollisionLayer one(pile(1, sleeping)), two(pile(2, sleeping));
+    for (int n = 1; n <= 1000; ++n) {
+      one.advance_to(n / 60.0);
+      two.advance_to(n / 60.0);
+      ASSERT_EQ(fingerprint(one), fingerprint(two)) << "frame " << n << ", sleeping " << sleeping;
+    }
+    EXPECT_EQ(one.report().asleep, sleeping ? 36u : 0u);
+  }
+}
+
 TEST(Determinism, ABystanderFarAwayDoesNotChangeTheHeap) {
   Scene with = heap();
   with.bodies.push_back(test::body("bystander", Sphere{1}, {1000, 0, 50}));

@@ -129,8 +129,7 @@ TEST(ExactImpacts, TheUpperBallOfACannonRisesToNineTimesItsHeight) {
   for (int frame = 1; frame <= 40; ++frame) {
     layer.advance_to(frame / 60.0);
     for (const ImpactEvent& impact : layer.impacts())
-      for (const Vec3& v : {impact.v_a_after, impact.v_b_after})
-        fastest = std::max(fastest, v.z());
+      for (const Vec3& v : {impact.v_a_after, impact.v_b_after}) fastest = std::max(fastest, v.z());
   }
   EXPECT_NEAR(fastest * fastest / (2 * kG), 9, 0.02);  // the gap of 1 mm, and mass 1e-6
 }

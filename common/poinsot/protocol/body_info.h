@@ -19,7 +19,7 @@ struct BodyInfo {
   std::uint32_t count = 0;  // bodies in the scene: a late joiner knows when it has them all
   std::string name;
   bool is_static = false;
-  bool is_kinematic = false;  // moves with velocities of its own; has no mass
+  bool is_kinematic = false;       // moves with velocities of its own; has no mass
   MassProperties mass_properties;  // in B
   Pose pose;                       // of B in W at time 0 (for a static body: always)
   Material material;

@@ -21,12 +21,12 @@ struct ImpactedBody {
 struct ImpactNotice {
   std::uint64_t session = 0;
   std::uint32_t epoch = 0;
-  std::uint64_t frame = 0;        // that was advanced when it happened
-  double time = 0;                // [s]
-  ImpactedBody a, b;              // a moves, b may be static
-  Vec3 point = Vec3::Zero();      // [m] in W; of several points, weighted by their impulses
-  Vec3 normal = Vec3::UnitZ();    // unit, in W, from b to a
-  Vec3 impulse = Vec3::Zero();    // [N·s] on a, in W; the opposite acts on b
+  std::uint64_t frame = 0;      // that was advanced when it happened
+  double time = 0;              // [s]
+  ImpactedBody a, b;            // a moves, b may be static
+  Vec3 point = Vec3::Zero();    // [m] in W; of several points, weighted by their impulses
+  Vec3 normal = Vec3::UnitZ();  // unit, in W, from b to a
+  Vec3 impulse = Vec3::Zero();  // [N·s] on a, in W; the opposite acts on b
 };
 
 }  // namespace poinsot

@@ -34,7 +34,7 @@ class IslandMotion {
   bool proves_rest(CollisionState& state, const Island& island);
 
   SimulationWorker& worker() { return worker_; }
-  bool watches = true;  // for bodies that stray; if not, the island goes to the end as it is
+  bool watches = true;        // for bodies that stray; if not, the island goes to the end as it is
   double contact_wall_s = 0;  // [s] spent in contacts
 
  private:

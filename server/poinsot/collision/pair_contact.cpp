@@ -42,6 +42,14 @@ void recall(PairContact& contact, double size, double h) {
   }
 }
 
+// Whether the points of a shape's contacts stay where they are on it; those of round ones roll.
+bool has_corners(const Collider& collider) {
+  return std::holds_alternative<Box>(collider.shape) ||
+         std::holds_alternative<Convex>(collider.shape) ||
+         std::holds_alternative<HalfSpace>(collider.shape) ||
+         std::holds_alternative<Mesh>(collider.shape);
+}
+
 }  // namespace
 
 // The points of a pair where its bodies are now; those that continue old ones keep what they know.
@@ -61,7 +69,8 @@ void measure_pair(CollisionState& state, PairRecord& record, double margin, doub
   const Eigen::Index mover = world.moves(a) ? a : b;
   const Vec3 center = position(world.y, mover);
   const bool same =
-      contact.margin >= margin && contact.margin <= 2 * margin &&
+      has_corners(shape_a) && has_corners(shape_b) && contact.margin >= margin &&
+      contact.margin <= 2 * margin &&
       shift(contact.measured, relative,
             std::min(shape_a.bounding_radius, shape_b.bounding_radius)) < kSamePose * record.size;
   if (same) {

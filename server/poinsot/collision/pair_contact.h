@@ -1,7 +1,7 @@
 // Where a pair touches: its points found, or moved along with its bodies, and what they remember.
 //
-// While the pair turned and shifted by less than 1e-5 of its size since its points were last found,
-// they are moved along: their gaps are then wrong by no more than 1e-10 of the size.
+// While a pair of polyhedra turned and shifted by less than 1e-5 of its size since its points were
+// last found, they are moved along: their gaps are then wrong by no more than 1e-10 of the size.
 
 #pragma once
 
