@@ -1,6 +1,7 @@
 // Nothing passes through anything: bullets against thin plates, at 60 frames per second.
 
 #include <cmath>
+#include <ostream>
 #include <random>
 #include <utility>
 
@@ -98,6 +99,9 @@ std::string name_of(const Case& c) {
   const char* plates[] = {"Thin", "Loose", "Thick", "Mesh"};
   return std::string(c.gun.name) + plates[static_cast<int>(c.plate)] +
          std::to_string(static_cast<int>(c.speed));
+}
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << name_of(c);
 }
 std::vector<Case> cases() {
   std::vector<Case> all;
