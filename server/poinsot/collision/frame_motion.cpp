@@ -38,6 +38,7 @@ FrameMotion::FrameMotion(const Scene& scene)
       excited_(scene.bodies.size(), 0),
       thrown_(scene.bodies.size(), 0) {
   for (int k = 0; k < team_.size(); ++k) motions_.emplace_back(state_);
+  tired_.reserve(scene.bodies.size());
   for (Eigen::Index i = 0; i < state_.world().size(); ++i)
     if (!state_.world().moves(i) && !state_.world().is_kinematic(i)) place_resting(i);
 }

@@ -2,6 +2,22 @@
 
 namespace poinsot {
 
+Island::Island() {
+  constexpr std::size_t kBodies = 8, kRecords = 16;
+  bodies.reserve(kBodies);
+  records.reserve(kRecords);
+  strays.reserve(kBodies);
+  bodies_before.reserve(kBodies);
+  times_before.reserve(kBodies);
+  records_before.reserve(kRecords);
+  contacts_before.resize(kRecords);
+  for (PairContact& contact : contacts_before) {
+    contact.points.reserve(Manifold::kMaxPoints);
+    contact.last.reserve(Manifold::kMaxPoints);
+  }
+  result.events.reserve(kRecords);
+}
+
 void Island::Result::clear() {
   std::vector<ImpactEvent> kept;
   std::swap(kept, events);

@@ -11,6 +11,8 @@
 namespace poinsot {
 
 struct Island {
+  Island();  // with room for a few bodies, so that small islands come and go without allocating
+
   std::vector<Eigen::Index> bodies;  // awake, ascending; systems as a whole
   std::vector<int> records;          // ascending
 

@@ -5,6 +5,12 @@
 
 namespace poinsot {
 
+Islands::Islands(std::size_t bodies) : parent_(bodies, 0), island_of(bodies, kNone) {
+  constexpr std::size_t kReady = 8;  // without allocating when they first come up
+  islands_.resize(std::min(bodies, kReady));
+  before_.resize(std::min(bodies, kReady));
+}
+
 int Islands::root(int body) {
   while (parent_[static_cast<std::size_t>(body)] != body) {
     int& up = parent_[static_cast<std::size_t>(body)];

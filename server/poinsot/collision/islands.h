@@ -9,7 +9,7 @@ namespace poinsot {
 
 class Islands {
  public:
-  explicit Islands(std::size_t bodies) : parent_(bodies, 0), island_of(bodies, kNone) {}
+  explicit Islands(std::size_t bodies);
 
   static constexpr int kNone = -1;
 
