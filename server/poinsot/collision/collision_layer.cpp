@@ -75,6 +75,10 @@ bool CollisionLayer::is_asleep(Eigen::Index i) const {
   return std::as_const(frame_->motion).state().asleep[static_cast<std::size_t>(i)] != 0;
 }
 
+std::uint32_t CollisionLayer::course_stamp(Eigen::Index i) const {
+  return std::as_const(frame_->motion).state().stamp[static_cast<std::size_t>(i)];
+}
+
 void CollisionLayer::advance_to(double t_end) {
   {
     const FrameTimes frame_times(times_, cpu_share_);

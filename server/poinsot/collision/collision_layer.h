@@ -70,6 +70,8 @@ class CollisionLayer {
   // Located in the last frame, island by island and in order of time there.
   std::span<const ImpactEvent> impacts() const { return impacts_; }
   bool is_asleep(Eigen::Index i) const;
+  // Another one whenever the body's course changed, falling asleep included.
+  std::uint32_t course_stamp(Eigen::Index i) const;
 
   // Energy [J], and the relative energy error since the start [-]: what the energy changed by
   // beyond the work of held wrenches, the work and loss at contacts and the push-out, over the

@@ -50,10 +50,14 @@ const Course& CollisionState::course(Eigen::Index i, double to, bool in_contact,
                                      SimulationWorker& worker) {
   const auto k = static_cast<std::size_t>(i);
   Course& course = courses[k];
-  if (course_stamp[k] == stamp[k] && course.end() >= to) return course;
-  course = asleep[k] != 0 ? Course::still({position(world().y, i), orientation(world().y, i)},
-                                          body_time[k], to)
-                          : simulation.course(i, body_time[k], to, in_contact, worker);
+  if (course_stamp[k] == stamp[k] && course.end() >= to) {
+    if (course.kind() == Course::Kind::driven) course.use(worker);
+    return course;
+  }
+  const bool rests = asleep[k] != 0 || (!world().moves(i) && !world().is_kinematic(i));
+  course = rests ? Course::still({position(world().y, i), orientation(world().y, i)}, body_time[k],
+                                 std::numeric_limits<double>::infinity())
+                 : simulation.course(i, body_time[k], to, in_contact, worker);
   course_stamp[k] = stamp[k];
   return course;
 }
@@ -72,8 +76,18 @@ MovingPose CollisionState::moving_pose(Eigen::Index i, double t, bool in_contact
 void CollisionState::bring(Eigen::Index i, double t, SimulationWorker& worker, Tally& tally) {
   const auto k = static_cast<std::size_t>(i);
   if (body_time[k] == t || !is_awake(i)) return;
-  simulation.advance({&i, 1}, body_time[k], t, false, worker, tally);
-  body_time[k] = t;
+  const int system = world().systems.empty() ? World::kLone : world().system_of[k];
+  if (system == World::kLone) {
+    simulation.advance({&i, 1}, body_time[k], t, false, worker, tally);
+    body_time[k] = t;
+    return;
+  }
+  const auto& columns = world().systems[static_cast<std::size_t>(system)].columns;
+  simulation.advance(columns, body_time[k], t, false, worker, tally);
+  for (const Eigen::Index j : columns) {  // their courses begin where they are now
+    body_time[static_cast<std::size_t>(j)] = t;
+    change_course(j);
+  }
 }
 
 double CollisionState::touch(const PairRecord& record) const {

@@ -73,7 +73,7 @@ void FrameMotion::advance_to(double t_end, CollisionReport& report,
   report.contacts = 0;
   report.max_penetration = 0;
   report.crowded = false;
-  if (rests_ && !touched_ && t_end >= state_.world().time) {
+  if (rests_ && !touched_ && std::isfinite(t_end) && t_end >= state_.world().time) {
     state_.simulation.commit(t_end, {});
     return;
   }
@@ -86,6 +86,7 @@ void FrameMotion::advance_to(double t_end, CollisionReport& report,
     touched_ = false;
     settle_courses();
     state_.simulation.freeze_unsound(awake_, tally);  // before any geometry query
+    if (tally.quarantined > 0) place_frozen();
     set_bounds(t_end);
     update_pairs();
     find_excited(t_end, work);
@@ -288,6 +289,22 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
       (islands_.island_of[static_cast<std::size_t>(i)] == own ? left_ : strays_).push_back(i);
     island.restore(state_);
   }
+  // Islands that are done are at the end of the frame: those that strays belong to go back first.
+  const auto put_back = [&](Eigen::Index i) {
+    const int of = islands_.island_of[static_cast<std::size_t>(i)];
+    if (of < 0 || !islands_.all()[static_cast<std::size_t>(of)].done) return;
+    Island& island = islands_.all()[static_cast<std::size_t>(of)];
+    island.restore(state_);
+    island.done = false;
+  };
+  const auto put_neighbours_back = [&](Eigen::Index i) {
+    put_back(i);
+    for (const int r : state_.pairs.of(i)) {
+      put_back(state_.pairs[r].a);
+      put_back(state_.pairs[r].b);
+    }
+  };
+  for (const Eigen::Index i : left_) put_neighbours_back(i);
   const auto neighbours_speed = [&](Eigen::Index i) {
     double speed = fastest_point(state_, i, h);
     for (const int r : state_.pairs.of(i)) {
@@ -303,6 +320,7 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
   // Those that touch a stray now are likely to be the next.
   for (std::size_t k = 0; k < strays_.size(); ++k) {
     const Eigen::Index i = strays_[k];
+    put_neighbours_back(i);
     if (state_.asleep[static_cast<std::size_t>(i)] != 0) wake(i);
     excite(i, t_end, kThrown * neighbours_speed(i));
     for (const int r : state_.pairs.of(i)) {
@@ -314,6 +332,15 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
   }
   update_pairs();
   islands_.partition(state_, excited_, false);
+}
+
+void FrameMotion::place_frozen() {
+  for (Eigen::Index i = 0; i < state_.world().size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (state_.world().motion[k] != Motion::frozen || state_.bounds_until[k] == kForEver) continue;
+    state_.change_course(i);
+    place_resting(i);
+  }
 }
 
 void FrameMotion::put_to_sleep() {
@@ -391,13 +418,7 @@ void FrameMotion::close(double t_end, CollisionReport& report, std::vector<Impac
     impacts.insert(impacts.end(), result.events.begin(), result.events.end());
   }
   state_.simulation.commit(t_end, all);
-  if (all.quarantined > 0)
-    for (Eigen::Index i = 0; i < state_.world().size(); ++i)
-      if (state_.world().motion[static_cast<std::size_t>(i)] == Motion::frozen &&
-          state_.bounds_until[static_cast<std::size_t>(i)] != kForEver) {
-        state_.change_course(i);
-        place_resting(i);
-      }
+  if (all.quarantined > 0) place_frozen();
   if (state_.def.sleeping) put_to_sleep();
   report.asleep = sleep_.asleep();
 }

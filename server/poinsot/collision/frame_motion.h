@@ -32,6 +32,7 @@ class FrameMotion {
   void excite(Eigen::Index i, double t_end, double speed);
   void run_islands(double t_end, CollisionReport& report, CollisionTimes& times);
   void gather_strays(double t_end, int attempt);
+  void place_frozen();
   void put_to_sleep();
   bool touches_now(const PairRecord& record) const;
   void fly_the_rest(double t_end, Tally& tally);

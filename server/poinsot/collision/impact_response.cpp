@@ -165,8 +165,20 @@ void ImpactResponse::resolve(CollisionState& state, Island& island, std::span<co
           sign * (p.point - bodies_[static_cast<std::size_t>(body)].c).cross(p.impulse);
     }
   }
+  if (!world.systems.empty()) add_systems(world);
   for (const Eigen::Index i : changed_) state.change_course(i);
   tell(state, island, t);
+}
+
+// What springs join to a body that was struck moves differently as well.
+void ImpactResponse::add_systems(const World& world) {
+  const std::size_t struck = changed_.size();
+  for (std::size_t k = 0; k < struck; ++k) {
+    const int system = world.system_of[static_cast<std::size_t>(changed_[k])];
+    if (system == World::kLone) continue;
+    for (const Eigen::Index j : world.systems[static_cast<std::size_t>(system)].columns)
+      if (std::find(changed_.begin(), changed_.end(), j) == changed_.end()) changed_.push_back(j);
+  }
 }
 
 void ImpactResponse::tell(CollisionState& state, Island& island, double t) {

@@ -32,6 +32,7 @@ class ImpactResponse {
   int local(CollisionState& state, Eigen::Index column, double t, SimulationWorker& worker);
   double restitution(CollisionState& state, const PairRecord& record,
                      const ImpactPoint& point) const;
+  void add_systems(const World& world);
   void tell(CollisionState& state, Island& island, double t);
 
   struct Range {

@@ -202,7 +202,12 @@ void IslandMotion::meet(Frame& frame, const Meet& at) {
   CollisionState& state = frame.state;
   response_.resolve(state, frame.island, frame.island_of, at.record, at.time, worker_);
   if (!frame.island.strays.empty()) return;
-  if (response_.changed().empty()) state.pairs[at.record].standing = true;  // it only seemed to
+  PairRecord& record = state.pairs[at.record];
+  const std::span<const Eigen::Index> changed = response_.changed();
+  const bool takes_part = std::any_of(changed.begin(), changed.end(), [&](Eigen::Index i) {
+    return i == record.a || i == record.b;
+  });
+  if (!takes_part) record.standing = true;  // it only seemed to approach
   for (const Eigen::Index i : response_.changed()) watch(frame, i, at.time);
 }
 
@@ -248,6 +253,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   ContactStep::Books books;
   ContactStep::Outcome outcome;
   Meet first;
+  double arrivals = std::numeric_limits<double>::infinity();
   constexpr int kAttempts = 2;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const Stopwatch::WallLap lap(contact_wall_s);
@@ -258,13 +264,15 @@ double IslandMotion::step_standing(Frame& frame, double t) {
         state.bring(body, t, worker_, frame.island.result.tally);
       step_.add(state, r);
     }
+    if (attempt > 0)  // what the attempt before found
+      for (const Eigen::Index i : step_.movers())
+        state.simulation.contact_wrenches()[static_cast<std::size_t>(i)] = Wrench{};
     const double cost = 1 + static_cast<double>(step_.points()) / kPointsPerImpact;
     if (cost > state.def.max_impacts) {  // too many to stop for anything
+      if (attempt > 0) note(frame, outcome, books);
       frame.crowded = frame.island.result.crowded = true;
       return t;
     }
-    for (const Eigen::Index i : step_.movers())  // of the attempt before
-      state.simulation.contact_wrenches()[static_cast<std::size_t>(i)] = Wrench{};
     outcome = step_.solve(state, books);
     if (const double part = sound_part(state, h); part < 1) to = t + part * h;
     for (const Eigen::Index i : step_.movers()) {
@@ -280,6 +288,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
           !is_slow(frame, record, record.safe_until, h))
         continue;
       record.standing = again = true;
+      if (attempt + 1 == kAttempts) arrivals = std::min(arrivals, record.safe_until);
       state.bring(record.a, t, worker_, frame.island.result.tally);
       state.bring(record.b, t, worker_, frame.island.result.tally);
     }
@@ -295,6 +304,10 @@ double IslandMotion::step_standing(Frame& frame, double t) {
         first.time = record.safe_until;
       }
     }
+  }
+  if (arrivals > t && arrivals < first.time) {  // they are not among the contacts yet
+    first.time = arrivals;
+    first.record = -1;
   }
   await_points(frame, t, first);
   advance_movers(frame, t, first.time);

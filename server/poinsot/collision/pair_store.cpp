@@ -58,10 +58,14 @@ namespace {
 std::uint64_t digest_of(const PairContact& contact) {
   Hash64 hash;
   hash.add(contact.last_h);
+  hash.add(contact.margin);
+  for (const double x : contact.measured.c) hash.add(x);
+  for (const double x : contact.measured.q.coeffs()) hash.add(x);
   for (const PairPoint& point : contact.points) {
     hash.add(point.normal_impulse);
     for (const double x : point.friction_impulse) hash.add(x);
-    for (const double x : point.offset) hash.add(x);
+    for (const Vec3* v : {&point.offset, &point.anchor_a, &point.anchor_b, &point.normal_in_a})
+      for (const double x : *v) hash.add(x);
     hash.add(point.approach);
   }
   return hash.value() | 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace poinsot {
@@ -62,6 +63,9 @@ void Sleep::lay_down(CollisionState& state, Eigen::Index i, int group) {
   state.asleep[k] = 1;
   state.simulation.rest(i);
   state.change_course(i);
+  state.courses[k] = Course::still({position(world.y, i), orientation(world.y, i)}, world.time,
+                                   std::numeric_limits<double>::infinity());
+  state.course_stamp[k] = state.stamp[k];
   group_of_[k] = group;
   next_[k] = -1;
   before_[k] = {world.y.col(i), world.held[k]};
@@ -93,8 +97,10 @@ void Sleep::wake_changed(CollisionState& state) {
 }
 
 void Sleep::hash_into(Hash64& hash) const {
+  hash.add(frame_);
   for (std::size_t k = 0; k < group_of_.size(); ++k) {
-    if (group_of_[k] >= 0) hash.add(static_cast<std::uint64_t>(k));
+    if (group_of_[k] >= 0)
+      hash.add(static_cast<std::uint64_t>(k) << 32 | static_cast<std::uint32_t>(group_of_[k]));
     if (speed_[k] >= 0) hash.add(speed_[k]);
   }
 }

@@ -57,8 +57,8 @@ void PresentationLayer::capture() {
   const Stopwatch::Lap lap(times_.presentation);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];
-    const std::uint8_t asleep = collision_.is_asleep(i) ? 1 : 0;
-    if (asleep != 0 && captured_asleep_[k] != 0) continue;
+    const std::uint32_t asleep = collision_.is_asleep(i) ? collision_.course_stamp(i) : 0;
+    if (asleep != 0 && captured_asleep_[k] == asleep) continue;
     captured_asleep_[k] = asleep;
     const Pose pose = body_pose(world(), i);
     snapshot_.bodies[k] = {world().ids[static_cast<std::size_t>(i)], pose.c, pose.q,

@@ -66,8 +66,9 @@ class PresentationLayer {
   std::vector<ImpactNotice> impacts_;
   std::uint64_t impacts_so_far_ = 0;   // in this epoch
   std::vector<Eigen::Index> columns_;  // of the snapshot's bodies
-  // Of bodies that sleep, captured and hashed once; 0: not yet.
-  std::vector<std::uint8_t> captured_asleep_;  // per body of the snapshot
+  // Per body of the snapshot: the stamp of the course with which it fell asleep and was captured;
+  // 0: it is awake.
+  std::vector<std::uint32_t> captured_asleep_;
   BodyDigests digests_;
   LayerTimes times_;  // own time, and the inner layers' before the last reset
 };

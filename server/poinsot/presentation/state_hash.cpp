@@ -16,11 +16,15 @@ std::uint64_t state_hash(std::uint64_t frame, const CollisionLayer& collision,
                          const HeldWrenches& held, BodyDigests& digests) {
   const World& world = collision.world();
   digests.value.resize(static_cast<std::size_t>(world.size()), 0);
+  digests.stamp.resize(digests.value.size(), 0);
   Hash64 hash;
   hash.add(frame);
   for (Eigen::Index i = 0; i < world.size(); ++i) {
     std::uint64_t& digest = digests.value[static_cast<std::size_t>(i)];
-    if (digest == 0 || !collision.is_asleep(i)) digest = digest_of(world, i);
+    std::uint32_t& stamp = digests.stamp[static_cast<std::size_t>(i)];
+    const std::uint32_t now = collision.course_stamp(i);
+    if (digest == 0 || !collision.is_asleep(i) || stamp != now) digest = digest_of(world, i);
+    stamp = now;
     hash.add(digest);
     if (!collision.is_asleep(i)) digest = 0;
   }

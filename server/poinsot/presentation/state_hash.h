@@ -14,6 +14,7 @@ namespace poinsot {
 // Of the state of each body, in column order; those of sleeping bodies are formed once.
 struct BodyDigests {
   std::vector<std::uint64_t> value;  // 0: to be formed
+  std::vector<std::uint32_t> stamp;  // of the course that they are of
 };
 
 std::uint64_t state_hash(std::uint64_t frame, const CollisionLayer& collision,

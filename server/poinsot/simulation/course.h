@@ -54,6 +54,9 @@ class Course {
   Pose at(double t) const;
   MovingPose moving_at(double t) const;
 
+  // A driven body's course is integrated by this thread's means from now on.
+  void use(SimulationWorker& worker) { preview_.worker = &worker; }
+
   Kind kind() const { return kind_; }
   bool moves() const { return kind_ != Kind::still; }
   double start() const { return start_; }  // [s]
