@@ -208,7 +208,7 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
       for (const int body : {record.a, record.b}) {
         const auto k = static_cast<std::size_t>(body);
         if (state_.asleep[k] != 0 && searches) {
-          wake(body);
+          sleep_.wake(state_, body);
           again = true;
         }
         if (state_.is_awake(body)) excited_[k] = 1;
@@ -216,11 +216,16 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
     }
   }
   // What one impact among them may throw them to.
+  const double h = t_end - state_.world().time;
+  fastest_.assign(excited_.size(), -1);
+  const auto fastest = [&](std::size_t k) {
+    if (fastest_[k] < 0) fastest_[k] = fastest_point(state_, static_cast<Eigen::Index>(k), h);
+    return fastest_[k];
+  };
   for (const PairRecord& record : state_.pairs.records()) {
     const auto a = static_cast<std::size_t>(record.a), b = static_cast<std::size_t>(record.b);
     if (excited_[a] == 0 && excited_[b] == 0) continue;
-    const double h = t_end - state_.world().time;
-    const double speed = fastest_point(state_, record.a, h) + fastest_point(state_, record.b, h);
+    const double speed = fastest(a) + fastest(b);
     for (const std::size_t k : {a, b})
       if (excited_[k] != 0) thrown_[k] = std::max(thrown_[k], speed);
   }
@@ -230,12 +235,6 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
       thrown_[k] = 0;
     }
   update_pairs();
-}
-
-void FrameMotion::wake(Eigen::Index i) {
-  sleep_.wake(state_, i);
-  for (Eigen::Index j = 0; j < state_.world().size(); ++j)
-    if (state_.is_awake(j)) state_.body_time[static_cast<std::size_t>(j)] = state_.world().time;
 }
 
 // Makes sure that body i stays in its boxes with `speed` more than it has [m/s].
@@ -321,7 +320,7 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
   for (std::size_t k = 0; k < strays_.size(); ++k) {
     const Eigen::Index i = strays_[k];
     put_neighbours_back(i);
-    if (state_.asleep[static_cast<std::size_t>(i)] != 0) wake(i);
+    if (state_.asleep[static_cast<std::size_t>(i)] != 0) sleep_.wake(state_, i);
     excite(i, t_end, kThrown * neighbours_speed(i));
     for (const int r : state_.pairs.of(i)) {
       const PairRecord& record = state_.pairs[r];

@@ -39,7 +39,6 @@ class FrameMotion {
   void close(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
              const Tally& tally);
   void place_resting(Eigen::Index i);
-  void wake(Eigen::Index i);
 
   CollisionState state_;
   Team team_;
@@ -50,6 +49,7 @@ class FrameMotion {
   PairRules rules_;
   std::vector<std::uint32_t> bounded_;  // stamp of the course that the boxes are of, per body
   std::vector<std::uint8_t> excited_;   // per body
+  std::vector<double> fastest_;         // [m/s] per body: of its points; < 0: not asked for yet
   std::vector<double> thrown_;          // [m/s] per body: the speed that an impact may have
   std::vector<Eigen::Index> rest_, awake_, strays_, left_;
   std::vector<Tally> rest_tallies_;

@@ -76,6 +76,7 @@ void Sleep::wake(CollisionState& state, Eigen::Index i) {
   for (int k = group_of_[static_cast<std::size_t>(i)]; k >= 0;) {
     const auto body = static_cast<std::size_t>(k);
     state.asleep[body] = 0;
+    state.body_time[body] = state.world().time;
     state.change_course(k);
     group_of_[body] = -1;
     speed_[body] = -1;
