@@ -31,4 +31,13 @@ struct Contact {
   Vec3 friction_impulse = Vec3::Zero();  // perpendicular to the normal, in W
 };
 
+// Two bodies held together at a point: a bilateral row of each axis. The relative velocity of a's
+// point and b's is `target` after the solve, whatever impulse that takes.
+struct PointJoint {
+  int a, b;                     // bodies
+  Vec3 point;                   // [m] in W, midway between the two points
+  Vec3 target = Vec3::Zero();   // [m/s] in W
+  Vec3 impulse = Vec3::Zero();  // [N·s] on a (its opposite on b), in W: the start of the next solve
+};
+
 }  // namespace poinsot

@@ -1,0 +1,69 @@
+// Contacts and joints solved as one: the accurate solver, at any mass ratio.
+//
+// Finds velocities v and impulses λ with  M (v − v*) = Jᵀ λ  such that at every contact
+//
+//   vn ≥ target,  λn ≥ 0,  λn (vn − target) = 0;   |λt| ≤ μ λn,  and where the point slides, λt =
+//   −μ λn vt / |vt|
+//
+// and at every joint the relative velocity is its target. Cones are exact circles.
+//
+// Method: the regularised convex problem in v has no constraints and is solved by Newton's method
+// with an exact line search and a sparse block LDLᵀ factorisation; the regularisation is then taken
+// back by proximal passes (λ of the last pass in place of zero), and the floating of sliding
+// points, which the convex law implies, by de Saxcé passes (target − μ |vt| of the last pass).
+// Sources: Castro, Permenter, Han, An Unconstrained Convex Formulation of Compliant Contact (2022);
+// de Saxcé, Feng (1998); Rockafellar, Augmented Lagrangians (1976).
+
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "poinsot/contact/contact.h"
+
+namespace poinsot {
+
+// How far a solve is from the law above.
+struct SolveResidual {
+  double normal =
+      0;  // [m/s] largest |min(λn w, vn − target)| of a contact, w: its inverse effective mass
+  double friction = 0;  // [m/s] largest distance of w λt from what the cone and the slip ask for
+  double joint = 0;     // [m/s] largest relative velocity of a joint beside its target
+  double balance = 0;   // [m/s] largest |v − v* − M⁻¹Jᵀλ| of a body
+  int iterations = 0;   // of Newton's method, all passes together
+  int passes = 0;       // proximal and de Saxcé
+  bool converged = false;
+
+  double worst() const;  // [m/s] of the four
+};
+
+class ConvexNewton {
+ public:
+  double tolerance = 1e-10;  // [m/s] residual that ends the passes
+  int max_passes = 60;
+  int max_iterations = 200;  // all passes together
+
+  ConvexNewton();
+  ~ConvexNewton();
+  ConvexNewton(ConvexNewton&&) noexcept;
+  ConvexNewton& operator=(ConvexNewton&&) noexcept;
+
+  // target[i] [m/s] per contact. Starts from the impulses of contacts and joints and leaves the new
+  // ones there; bodies get their new velocities. What is not finite is left out: its impulse is
+  // zero. Momentum is conserved to rounding: velocities are v* + M⁻¹Jᵀλ of the impulses that are
+  // returned. The result does not depend on what was solved before, but for the start; allocates
+  // only when a problem is larger than any before.
+  SolveResidual solve(std::span<ContactBody> bodies, std::span<Contact> contacts,
+                      std::span<const double> target, std::span<PointJoint> joints = {});
+
+  // The same without friction, from zero, without touching the contacts' impulses: used on
+  // pseudo-velocities that move bodies apart.
+  SolveResidual push_out(std::span<ContactBody> bodies, std::span<const Contact> contacts,
+                         std::span<const double> target);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+}  // namespace poinsot
