@@ -5,13 +5,8 @@
 
 namespace poinsot::test {
 
-namespace {
-
 constexpr double kFriction = 0.6;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 int ContactProblem::add_ground() {
   ContactBody ground;

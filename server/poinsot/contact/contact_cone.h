@@ -40,15 +40,25 @@ struct ConeImpulse {
   }
 };
 
-inline ConeImpulse nearest_in_cone(const Vec3& y, double friction, const ConeScale& scale) {
+// Where the cone is asked from: an impulse times R, that is velocities [m/s].
+struct ConeArgument {
+  double normal;      // before the shift
+  double tangent[2];  //
+  double shift = 0;   // the argument is normal − μ shift
+  double excess;      // |tangent| − shift; both may be large and this small
+};
+
+inline ConeImpulse nearest_in_cone(const ConeArgument& z, double friction, const ConeScale& scale) {
   ConeImpulse result;
-  const double length = std::sqrt(y[1] * y[1] + y[2] * y[2]);
-  if (length <= friction * y[0] && friction > 0) {
+  const double length = std::sqrt(z.tangent[0] * z.tangent[0] + z.tangent[1] * z.tangent[1]);
+  const double upright = (z.normal - friction * z.shift) * scale.inverse_normal;
+  if (friction > 0 && length * scale.inverse_tangent <= friction * upright) {
     result.region = ConeImpulse::Region::kStick;
-    result.impulse = y;
+    result.impulse = Vec3(upright, z.tangent[0] * scale.inverse_tangent,
+                          z.tangent[1] * scale.inverse_tangent);
     return result;
   }
-  const double pressed = scale.normal * y[0] + friction * scale.tangent * length;
+  const double pressed = z.normal + friction * z.excess;
   if (!(pressed > 0)) return result;
   result.region = ConeImpulse::Region::kSlide;
   result.along = 1 / (scale.normal + friction * friction * scale.tangent);
@@ -57,10 +67,10 @@ inline ConeImpulse nearest_in_cone(const Vec3& y, double friction, const ConeSca
   if (!(length > 0)) return result;
   const double tangential = friction * normal;
   for (int k = 0; k < 2; ++k) {
-    result.direction[k] = y[k + 1] / length;
+    result.direction[k] = z.tangent[k] / length;
     result.impulse[k + 1] = tangential * result.direction[k];
   }
-  result.across = tangential * scale.inverse_tangent / length;
+  result.across = tangential / length;
   return result;
 }
 

@@ -5,12 +5,14 @@
 
 #include "poinsot/contact/newton_pass.h"
 #include "poinsot/contact/newton_problem.h"
+#include "poinsot/contact/shift_acceleration.h"
 
 namespace poinsot {
 
 struct ConvexNewton::Scratch {
   NewtonProblem problem;
   NewtonPass pass;
+  ShiftAcceleration acceleration;
   std::vector<Vec3> best;
 };
 
@@ -20,31 +22,6 @@ constexpr double kInnerPart = 0.05;  // [-] of the residual, that ends the pass 
 constexpr int kPatience = 8;         // passes without progress that end a solve
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double tangential(const Vec3& v) { return std::sqrt(v[1] * v[1] + v[2] * v[2]); }
-
-// Of velocities and impulses `start`.
-SolveResidual residual(const NewtonProblem& problem) {
-  SolveResidual result;
-  for (const NewtonPoint& p : problem.points) {
-    const Vec3 beside = p.velocity - p.target;
-    if (p.joint) {
-      result.joint = std::max(result.joint, beside.norm());
-      continue;
-    }
-    result.normal =
-        std::max(result.normal, std::abs(std::min(p.start[0] * p.w_normal, beside[0])));
-    const double y[2] = {p.w_tangent * p.start[1] - beside[1],
-                         p.w_tangent * p.start[2] - beside[2]};
-    const double length = std::sqrt(y[0] * y[0] + y[1] * y[1]);
-    const double limit = p.w_tangent * p.friction * p.start[0];
-    const double scale = length > limit ? limit / length : 1.0;
-    const double e[2] = {p.w_tangent * p.start[1] - scale * y[0],
-                         p.w_tangent * p.start[2] - scale * y[1]};
-    result.friction = std::max(result.friction, std::sqrt(e[0] * e[0] + e[1] * e[1]));
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -56,15 +33,15 @@ ConvexNewton& ConvexNewton::operator=(ConvexNewton&&) noexcept = default;
 SolveResidual ConvexNewton::iterate() {
   NewtonProblem& problem = scratch_->problem;
   NewtonPass& pass = scratch_->pass;
+  ShiftAcceleration& acceleration = scratch_->acceleration;
   std::vector<Vec3>& best = scratch_->best;
+  acceleration.restart();
   pass.load(problem);
   best.resize(problem.points.size());
-  problem.follow_impulses();
-  SolveResidual least;
+  SolveResidual now = problem.follow_trial(), least;
   int best_pass = 0;
   for (int k = 0;; ++k) {
-    SolveResidual now = residual(problem);
-    const double goal = std::max(tolerance, problem.rounding());
+    problem.accept_trial();
     if (getenv("TRACE"))
       fprintf(stderr, "pass %d n %.3e t %.3e j %.3e rounding %.2e\n", k, now.normal, now.friction,
               now.joint, problem.rounding());
@@ -76,20 +53,18 @@ SolveResidual ConvexNewton::iterate() {
     least.passes = k;
     least.iterations = pass.iterations;
     least.factorisations = pass.factorisations;
-    least.converged = least.worst() <= goal;
+    least.converged = least.worst() <= std::max(tolerance, problem.rounding());
     if (least.converged || k >= max_passes || pass.iterations >= max_iterations ||
         k - best_pass > kPatience)
       break;
-    for (NewtonPoint& p : problem.points)
-      if (!p.joint) p.goal[0] = p.target[0] - p.friction * tangential(p.velocity);
-    pass.run(problem, std::max(problem.rounding(), kInnerPart * std::min(now.worst(), tolerance * 1e3)),
+    acceleration.choose_shifts(problem);
+    now = pass.run(problem, now.worst(), std::max(problem.rounding(), kInnerPart * std::min(now.worst(), tolerance * 1e3)),
              max_iterations - pass.iterations);
-    for (NewtonPoint& p : problem.points) p.start = p.cone.impulse;
-    problem.follow_impulses();
   }
   if (best_pass != least.passes) {
-    for (std::size_t i = 0; i < best.size(); ++i) problem.points[i].start = best[i];
-    problem.follow_impulses();
+    for (std::size_t i = 0; i < best.size(); ++i) problem.points[i].trial = best[i];
+    problem.follow_trial();
+    problem.accept_trial();
   }
   return least;
 }

@@ -14,6 +14,7 @@ constexpr double kSameStiffness = 0.1;  // [-] likewise, across the sliding
 // [-] of the slope at the start, that ends a line search.
 constexpr double kFlat = 1e-2;
 constexpr int kMaxTrials = 40;
+constexpr double kMuchNearer = 0.1;  // [-] of a residual
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -38,6 +39,23 @@ BlockLdlt::Block shift_columns(const BlockLdlt::Block& block, const Mat3& d) {
 
 Vec3 place_of(const NewtonPoint& p, const NewtonProblem& problem) {
   return p.a != kFixed ? problem.bodies[at(p.a)].c + p.arm_a : problem.bodies[at(p.b)].c + p.arm_b;
+}
+
+// R λ₀ − (velocity − target). A sliding point's speed cancels its shift; what is left is found from
+// their differences.
+ConeArgument argument_of(const NewtonPoint& p, const Vec3& moved) {
+  ConeArgument z;
+  z.normal = p.scale.normal * p.start[0] - (p.velocity[0] - p.target[0]) - moved[0];
+  const double change[2] = {p.scale.tangent * p.start[1] - moved[1],
+                            p.scale.tangent * p.start[2] - moved[2]};
+  for (int k = 0; k < 2; ++k) z.tangent[k] = change[k] - p.velocity[k + 1];
+  z.shift = p.shift;
+  const double length = std::sqrt(z.tangent[0] * z.tangent[0] + z.tangent[1] * z.tangent[1]);
+  const double gained = change[0] * (z.tangent[0] - p.velocity[1]) +
+                        change[1] * (z.tangent[1] - p.velocity[2]);
+  const double both = length + p.speed;
+  z.excess = (both > 0 ? gained / both : 0.0) + (p.speed - p.shift);
+  return z;
 }
 
 bool differs(const ConeImpulse& now, const ConeImpulse& then) {
@@ -203,14 +221,11 @@ void NewtonPass::find_step(NewtonProblem& problem) {
 double NewtonPass::slope(NewtonProblem& problem, double length) {
   double sum = inertia_slope_ + length * inertia_curvature_;
   for (NewtonPoint& p : problem.points) {
-    const Vec3 beside = p.velocity - p.goal + p.moved + length * p.step;
-    const ConeScale& s = p.scale;
-    const Vec3 y = p.start - Vec3(s.inverse_normal * beside[0], s.inverse_tangent * beside[1],
-                                  s.inverse_tangent * beside[2]);
+    const Vec3 moved = p.moved + length * p.step;
     if (p.joint)
-      p.cone.impulse = y;
+      p.cone.impulse = p.start - p.scale.inverse_normal * (p.velocity - p.target + moved);
     else
-      p.cone = nearest_in_cone(y, p.friction, s);
+      p.cone = nearest_in_cone(argument_of(p, moved), p.friction, p.scale);
     sum += p.step.dot(p.start - p.cone.impulse);
   }
   return sum;
@@ -245,7 +260,26 @@ double NewtonPass::search(NewtonProblem& problem) {
   return length;
 }
 
-void NewtonPass::run(NewtonProblem& problem, double tolerance, int max_iterations) {
+// The trial impulses that go with the whole step if no region of a cone changed, normals first
+// brought into the cones.
+void NewtonPass::predict(NewtonProblem& problem) const {
+  for (NewtonPoint& p : problem.points) {
+    if (p.joint) {
+      p.trial = p.cone.impulse - p.scale.inverse_normal * p.step;
+      continue;
+    }
+    p.trial = p.cone.impulse;
+    if (p.cone.region == ConeImpulse::Region::kOpen) continue;
+    p.trial -= p.cone.stiffness(p.scale, p.friction) * p.step;
+    p.trial[0] = std::max(0.0, p.trial[0]);
+    const double limit = p.friction * p.trial[0];
+    const double length = std::sqrt(p.trial[1] * p.trial[1] + p.trial[2] * p.trial[2]);
+    if (length > limit) p.trial.tail<2>() *= limit / length;
+  }
+}
+
+SolveResidual NewtonPass::run(NewtonProblem& problem, double start_residual, double tolerance,
+                              int max_iterations) {
   std::ranges::fill(change_, 0.0);
   for (NewtonPoint& p : problem.points) {
     p.moved.setZero();
@@ -256,16 +290,22 @@ void NewtonPass::run(NewtonProblem& problem, double tolerance, int max_iteration
   for (int k = 0; k < max_iterations; ++k) {
     const double off = find_gradient(problem);
     if (getenv("TRACE")) fprintf(stderr, "   it %d off %.3e\n", k, off);
-    if (!(off > tolerance)) return;
+    if (!(off > tolerance)) break;
     if (is_stale(problem)) assemble(problem);
     find_step(problem);
-    if (!(descent_ < 0)) return;
+    if (!(descent_ < 0)) break;
+    ++iterations;
+    predict(problem);
+    const SolveResidual predicted = problem.follow_trial();
+    if (getenv("TRACE")) fprintf(stderr, "      predicted %.3e\n", predicted.worst());
+    if (predicted.worst() <= kMuchNearer * start_residual) return predicted;
     const double length = search(problem);
     if (getenv("TRACE")) fprintf(stderr, "      len %.3e fact %d\n", length, factorisations);
     for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += length * step_[i];
     for (NewtonPoint& p : problem.points) p.moved += length * p.step;
-    ++iterations;
   }
+  for (NewtonPoint& p : problem.points) p.trial = p.cone.impulse;
+  return problem.follow_trial();
 }
 
 }  // namespace poinsot

@@ -23,9 +23,12 @@ class NewtonPass {
   int iterations = 0, factorisations = 0;  // since load
 
   void load(const NewtonProblem& problem);
-  // Leaves the pass' impulses in the points' cones. Ends when what bodies and impulses disagree by
-  // is no velocity above `tolerance` [m/s] at a body's points, or when no more can be had.
-  void run(NewtonProblem& problem, double tolerance, int max_iterations);
+  // From the problem's accepted impulses to better ones, left as its trial: those of the pass, or
+  // those that a step of Newton's predicts, brought into the cones, as soon as they are much nearer
+  // to the law than the `start_residual` [m/s]. The pass ends when what bodies and impulses
+  // disagree by is no velocity above `tolerance` [m/s] at a body's points.
+  SolveResidual run(NewtonProblem& problem, double start_residual, double tolerance,
+                    int max_iterations);
 
  private:
   struct Group {
@@ -43,6 +46,7 @@ class NewtonPass {
   bool is_stale(const NewtonProblem& problem) const;
   void assemble(NewtonProblem& problem);
   void find_step(NewtonProblem& problem);
+  void predict(NewtonProblem& problem) const;
   double slope(NewtonProblem& problem, double length);
   double curvature(const NewtonProblem& problem) const;
   double search(NewtonProblem& problem);

@@ -32,6 +32,11 @@ bool sound(const ContactBody& body) {
          std::isfinite(1 / body.inv_mass) == (body.inv_mass > 0);
 }
 
+Vec3 within_cone(const Vec3& impulse, double friction) {
+  const ConeArgument z{impulse[0], {impulse[1], impulse[2]}, 0, std::hypot(impulse[1], impulse[2])};
+  return nearest_in_cone(z, friction, ConeScale::of(1, 1)).impulse;
+}
+
 // [1/kg] of a unit impulse at the point, along the axes of its frame.
 Vec3 inverse_masses(const NewtonBody& body, const Vec3& arm, const Mat3& frame) {
   Vec3 result;
@@ -98,7 +103,7 @@ void NewtonProblem::add(NewtonPoint& point, const Vec3& place, std::span<const C
   point.w_tangent = point.joint ? w.mean() : 0.5 * (w[1] + w[2]);
   if (!std::isfinite(w.sum() + point.carried.sum() + 1 / (kSoftness * w.minCoeff()))) return;
   point.scale = ConeScale::of(kSoftness * point.w_normal, kSoftness * point.w_tangent);
-  if (!std::isfinite(point.start.sum())) point.start.setZero();
+  if (!std::isfinite(point.trial.sum())) point.trial.setZero();
   point.moved.setZero();
   points.push_back(point);
 }
@@ -119,11 +124,11 @@ void NewtonProblem::load(std::span<const ContactBody> from, std::span<const Cont
     point.source = static_cast<int>(i);
     point.friction = frictional ? std::max(0.0, contact.friction) : 0.0;
     point.target = Vec3(target[i], 0, 0);
-    point.start.setZero();
+    point.trial.setZero();
     if (warm) {
-      point.start = point.frame.transpose() * contact.friction_impulse;
-      point.start[0] = contact.normal_impulse;
-      point.start = nearest_in_cone(point.start, point.friction, ConeScale::of(1, 1)).impulse;
+      point.trial = point.frame.transpose() * contact.friction_impulse;
+      point.trial[0] = contact.normal_impulse;
+      point.trial = within_cone(point.trial, point.friction);
     }
     add(point, contact.point, from, contact.a, contact.b);
   }
@@ -135,19 +140,18 @@ void NewtonProblem::load(std::span<const ContactBody> from, std::span<const Cont
     if (!std::isfinite(joint.point.sum() + joint.target.sum())) continue;
     point.source = static_cast<int>(i);
     point.target = joint.target;
-    point.start = warm ? joint.impulse : Vec3(Vec3::Zero());
+    point.trial = warm ? joint.impulse : Vec3(Vec3::Zero());
     add(point, joint.point, from, joint.a, joint.b);
   }
-  for (NewtonPoint& p : points) p.goal = p.target;
   pushes_.resize(bodies.size());
   moments_.resize(bodies.size());
 }
 
-void NewtonProblem::follow_impulses() {
+SolveResidual NewtonProblem::follow_trial() {
   std::ranges::fill(pushes_, Vec3::Zero());
   std::ranges::fill(moments_, Vec3::Zero());
   for (const NewtonPoint& p : points) {
-    const Vec3 impulse = p.frame * p.start;
+    const Vec3 impulse = p.frame * p.trial;
     if (p.a != kFixed) {
       pushes_[at(p.a)] += impulse;
       moments_[at(p.a)] += p.arm_a.cross(impulse);
@@ -166,9 +170,41 @@ void NewtonProblem::follow_impulses() {
     Vec3 relative = Vec3::Zero();
     if (p.a != kFixed) relative += bodies[at(p.a)].v + bodies[at(p.a)].omega.cross(p.arm_a);
     if (p.b != kFixed) relative -= bodies[at(p.b)].v + bodies[at(p.b)].omega.cross(p.arm_b);
-    p.velocity = p.frame.transpose() * relative + p.carried;
+    p.trial_velocity = p.frame.transpose() * relative + p.carried;
+  }
+  return measure_trial();
+}
+
+void NewtonProblem::accept_trial() {
+  for (NewtonPoint& p : points) {
+    p.start = p.trial;
+    p.velocity = p.trial_velocity;
+    p.speed = std::sqrt(p.velocity[1] * p.velocity[1] + p.velocity[2] * p.velocity[2]);
   }
 }
+
+SolveResidual NewtonProblem::measure_trial() const {
+  SolveResidual result;
+  for (const NewtonPoint& p : points) {
+    const Vec3 beside = p.trial_velocity - p.target;
+    if (p.joint) {
+      result.joint = std::max(result.joint, beside.norm());
+      continue;
+    }
+    result.normal =
+        std::max(result.normal, std::abs(std::min(p.trial[0] * p.w_normal, beside[0])));
+    const double y[2] = {p.w_tangent * p.trial[1] - beside[1],
+                         p.w_tangent * p.trial[2] - beside[2]};
+    const double length = std::sqrt(y[0] * y[0] + y[1] * y[1]);
+    const double limit = p.w_tangent * p.friction * p.trial[0];
+    const double scale = length > limit ? limit / length : 1.0;
+    const double e[2] = {p.w_tangent * p.trial[1] - scale * y[0],
+                         p.w_tangent * p.trial[2] - scale * y[1]};
+    result.friction = std::max(result.friction, std::sqrt(e[0] * e[0] + e[1] * e[1]));
+  }
+  return result;
+}
+
 
 double NewtonProblem::rounding() const {
   double largest = 0;

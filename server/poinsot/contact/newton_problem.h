@@ -10,6 +10,7 @@
 
 #include "poinsot/contact/contact.h"
 #include "poinsot/contact/contact_cone.h"
+#include "poinsot/contact/solve_residual.h"
 
 namespace poinsot {
 
@@ -20,7 +21,7 @@ struct NewtonBody {
   Mat3 J, inv_J;
   bool turns = true;
   Vec3 v_free, omega_free;  // without impulses
-  Vec3 v, omega;            // with the impulses `start` of the points
+  Vec3 v, omega;            // with the impulses `trial` of the points
   double reach = 0;         // [m] of its points from its centre
 };
 
@@ -35,9 +36,12 @@ struct NewtonPoint {
   double w_normal = 0, w_tangent = 0;  // [1/kg] inverse effective mass
   ConeScale scale;
   Vec3 target;        // [m/s]
-  Vec3 goal;          // [m/s] target, less what de Saxcé takes
+  double shift = 0;   // [m/s] μ times this is what de Saxcé takes from the normal target
+  Vec3 trial;         // [N·s]
+  Vec3 trial_velocity;  // [m/s] that goes with `trial`
   Vec3 start;         // [N·s] of the last pass
   Vec3 velocity;      // [m/s] that goes with `start`
+  double speed = 0;   // [m/s] tangential part of it
   Vec3 moved, step;   // [m/s] since, and along Newton's direction
   ConeImpulse cone;   // with `moved`
 };
@@ -51,8 +55,10 @@ class NewtonProblem {
   void load(std::span<const ContactBody> bodies, std::span<const Contact> contacts,
             std::span<const double> target, std::span<const PointJoint> joints, bool frictional,
             bool warm);
-  // Velocities v* + M⁻¹Jᵀλ of λ = start, of bodies and points.
-  void follow_impulses();
+  // Velocities v* + M⁻¹Jᵀλ of λ = trial, of bodies and points, and how far they are from the law.
+  SolveResidual follow_trial();
+  // The last trial is where the next pass starts.
+  void accept_trial();
   // [m/s] Below, velocities at points are rounding.
   double rounding() const;
 
@@ -62,6 +68,8 @@ class NewtonProblem {
  private:
   void load_bodies(std::span<const ContactBody> from);
   void add(NewtonPoint& point, const Vec3& at, std::span<const ContactBody> from, int a, int b);
+
+  SolveResidual measure_trial() const;
 
   std::vector<int> moving_;  // of the caller's body, kFixed or kUnsound
   std::vector<Vec3> pushes_, moments_;
