@@ -123,7 +123,7 @@ struct CollisionDef {
   int threads = 1;                   // that islands are spread over; the bits do not depend on it
 
   // Not keys of the scene file: nothing in a scene needs them otherwise.
-  double allowed_penetration = 1e-5;  // [-] that is left alone, relative to the smaller body's size
+  double allowed_penetration = 1e-9;  // [-] that is left alone, relative to the smaller body's size
   double push_out_rate = 2;           // [1/s] at which a penetration decays; much faster would lift
                                       // one side of a stack before the solver has the other
   double touch_gap = 1e-3;            // [-] below it an arriving pair bounces, relative likewise

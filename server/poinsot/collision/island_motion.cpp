@@ -7,6 +7,7 @@
 #include "poinsot/collision/mesh_pairs.h"
 #include "poinsot/collision/mesh_surface.h"
 #include "poinsot/collision/point_arrival.h"
+#include "poinsot/collision/proximity.h"
 #include "poinsot/collision/reach.h"
 
 namespace poinsot {
@@ -297,6 +298,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
     first = first_meeting(frame, t, to, true);
     if (!frame.island.strays.empty()) break;
     bool again = first.rests;
+    if (again) join_touching(frame, t);
     for (const int r : frame.island.records) {
       PairRecord& record = state.pairs[r];
       if (record.standing || record.meeting != Meeting::impact || record.safe_until > to ||
@@ -354,6 +356,22 @@ void IslandMotion::await_points(Frame& frame, double t, Meet& first) {
     if (arrival >= first.time) continue;
     first.record = awaited.record;
     first.time = arrival;
+  }
+}
+
+// What comes to rest carries what touches it: all pairs that touch now are stepped from now on.
+void IslandMotion::join_touching(Frame& frame, double t) {
+  CollisionState& state = frame.state;
+  for (const int r : frame.island.records) {
+    PairRecord& record = state.pairs[r];
+    if (record.standing || !is_known(state, record, t)) continue;
+    const Collider& a = state.colliders[static_cast<std::size_t>(record.pair.a)];
+    const Collider& b = state.colliders[static_cast<std::size_t>(record.pair.b)];
+    const Pose pose_a = collider_pose(a, state.moving_pose(record.a, t, true, worker_).pose);
+    const Pose pose_b = collider_pose(b, state.moving_pose(record.b, t, true, worker_).pose);
+    const double touch = state.touch(record);
+    if ((pose_a.c - pose_b.c).norm() > a.bounding_radius + b.bounding_radius + touch) continue;
+    record.standing = find_gap(a, pose_a, b, pose_b).value <= touch;
   }
 }
 
