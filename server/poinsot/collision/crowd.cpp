@@ -17,18 +17,6 @@ constexpr std::size_t kTogether = 64;
 // A larger island is too dear for a direct solver: some hundred milliseconds a frame.
 constexpr std::size_t kMostDirect = 400;
 
-// No point of the body moves farther in h, contacts aside [m].
-double travel(const CollisionState& state, Eigen::Index i, double h) {
-  const World& world = state.world();
-  const auto k = static_cast<std::size_t>(i);
-  const Vec3 v = linear_velocity(world, i);
-  const Vec3 omega = angular_velocity(world, i);
-  double acceleration = world.gravity.norm();
-  if (state.simulation.is_driven(i))
-    acceleration += world.held[k].in_W.force.norm() * world.inv_mass[k];
-  return h * (v.norm() + state.arm[k] * omega.norm() + 0.5 * h * acceleration);
-}
-
 template <class Task>
 void run_chunks(Team& team, std::size_t count, const Task& task) {
   team.run((count + kTogether - 1) / kTogether, [&](std::size_t chunk, int) {
@@ -39,10 +27,25 @@ void run_chunks(Team& team, std::size_t count, const Task& task) {
 
 }  // namespace
 
+// No point of the body moves farther in h, contacts aside [m].
+double Crowd::travel(const CollisionState& state, Eigen::Index i, const Vec3& omega,
+                     double h) const {
+  const World& world = state.world();
+  const auto k = static_cast<std::size_t>(i);
+  double acceleration = world.gravity.norm();
+  if (state.simulation.is_driven(i))
+    acceleration += world.held[k].in_W.force.norm() * world.inv_mass[k];
+  return h *
+         (linear_velocity(world, i).norm() + state.arm[k] * omega.norm() + 0.5 * h * acceleration);
+}
+
 Crowd::Crowd(const CollisionState& state)
     : member_(state.stamp.size(), 0),
       may_step_(state.stamp.size(), 0),
       near_(state.colliders.size()),
+      pose_(state.colliders.size()),
+      travel_(state.stamp.size(), 0),
+      placed_(state.stamp.size(), 0),
       local_(state.stamp.size(), -1) {
   const World& world = state.world();
   for (std::size_t k = 0; k < may_step_.size(); ++k) {
@@ -61,7 +64,8 @@ void Crowd::set_member(Eigen::Index i, bool member) {
 
 bool Crowd::look(const CollisionState& state, Eigen::Index i, double h) {
   const World& world = state.world();
-  const double more = travel(state, i, h);
+  const double more = travel(state, i, angular_velocity(world, i), h);
+  travel_[static_cast<std::size_t>(i)] = more;
   const Pose pose{position(world.y, i), orientation(world.y, i)};
   bool fits = true;
   for (const Collider& collider : state.colliders_of(i)) {
@@ -119,21 +123,42 @@ bool Crowd::takes(const CollisionState& state, const Island& island, double dura
   for (const Eigen::Index i : island.bodies) {
     double size = std::numeric_limits<double>::infinity();
     for (const Collider& collider : state.colliders_of(i)) size = std::min(size, collider.size);
-    if (travel(state, i, duration) > kLook * size) return false;
+    if (travel(state, i, angular_velocity(world, i), duration) > kLook * size) return false;
   }
   if (island.bodies.size() > kMostDirect) return true;
   return stands && state.def.contact_tolerance >= 1e-4;
 }
 
 // How often what is near is looked at.
-int Crowd::parts(const CollisionState& state, double duration) const {
+int Crowd::parts(const CollisionState& state, double duration) {
   double most = 1;
   for (const Eigen::Index i : columns_) {
     double size = std::numeric_limits<double>::infinity();
     for (const Collider& collider : state.colliders_of(i)) size = std::min(size, collider.size);
-    most = std::max(most, travel(state, i, duration) / (kLook * size));
+    const double way = travel(
+        state, i, bodies_[static_cast<std::size_t>(local_[static_cast<std::size_t>(i)])].omega,
+        duration);
+    most = std::max(most, way / (kLook * size));
   }
   return most < kMostParts ? static_cast<int>(std::ceil(most)) : kMostParts;
+}
+
+// Kinematic bodies are moved on when the frame is over.
+void Crowd::place_immovable(const CollisionState& state, int i, double h) {
+  const World& world = state.world();
+  const auto k = static_cast<std::size_t>(i);
+  if (world.moves(i) || placed_[k] == step_) return;
+  placed_[k] = step_;
+  const bool carried = world.is_kinematic(i);
+  const Pose pose = carried && now_ > world.time
+                        ? state.courses[k].at(now_)
+                        : Pose{position(world.y, i), orientation(world.y, i)};
+  for (const Collider& collider : state.colliders_of(i))
+    pose_[static_cast<std::size_t>(&collider - state.colliders.data())] =
+        collider_pose(collider, pose);
+  travel_[k] = carried ? h * (linear_velocity(world, i).norm() +
+                              state.arm[k] * angular_velocity(world, i).norm())
+                       : 0;
 }
 
 int Crowd::local(const CollisionState& state, int column) {
@@ -142,7 +167,9 @@ int Crowd::local(const CollisionState& state, int column) {
   const World& world = state.world();
   local = static_cast<int>(bodies_.size());
   immovable_.push_back(column);
-  const Pose pose = body_pose(state, column);
+  const bool carried = world.is_kinematic(column) && now_ > world.time;
+  const Pose pose = carried ? state.courses[static_cast<std::size_t>(column)].at(now_)
+                            : Pose{position(world.y, column), orientation(world.y, column)};
   SoftBody body;
   body.c = pose.c;
   body.q = pose.q;
@@ -189,34 +216,33 @@ void Crowd::gather_bodies(const CollisionState& state, std::span<Island* const> 
   }
 }
 
-// Kinematic bodies are moved on when the frame is over.
-Pose Crowd::body_pose(const CollisionState& state, Eigen::Index i) const {
-  const World& world = state.world();
-  if (world.is_kinematic(i) && now_ > world.time)
-    return state.courses[static_cast<std::size_t>(i)].at(now_);
-  return {position(world.y, i), orientation(world.y, i)};
-}
-
-Pose Crowd::pose_of(const CollisionState& state, int collider) const {
-  const Collider& shape = state.colliders[static_cast<std::size_t>(collider)];
-  return collider_pose(shape, body_pose(state, shape.body));
-}
-
 // Finds the points of all records.
 void Crowd::measure(CollisionState& state, double h, Team& team) {
-  for (const int r : records_) state.pairs.make_crowd_contact(state.pairs[r]);
+  ++step_;
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const Eigen::Index i = columns_[k];
+    const Pose pose{bodies_[k].c, bodies_[k].q};
+    for (const Collider& collider : state.colliders_of(i))
+      pose_[static_cast<std::size_t>(&collider - state.colliders.data())] =
+          collider_pose(collider, pose);
+    travel_[static_cast<std::size_t>(i)] = travel(state, i, bodies_[k].omega, h);
+  }
+  for (const int r : records_) {
+    PairRecord& record = state.pairs[r];
+    state.pairs.make_crowd_contact(record);
+    place_immovable(state, record.a, h);
+    place_immovable(state, record.b, h);
+  }
   run_chunks(team, records_.size(), [&](std::size_t k) {
     const PairRecord& record = state.pairs[records_[k]];
     CrowdContact& contact = state.pairs.crowd_contact(record);
     const Collider& a = state.colliders[static_cast<std::size_t>(record.pair.a)];
     const Collider& b = state.colliders[static_cast<std::size_t>(record.pair.b)];
-    const Pose pose_a = pose_of(state, record.pair.a), pose_b = pose_of(state, record.pair.b);
-    const auto reach = [&](int body) {
-      return state.world().moves(body) || state.world().is_kinematic(body) ? travel(state, body, h)
-                                                                           : 0.0;
-    };
-    const double margin =
-        state.def.contact_margin * record.size + reach(record.a) + reach(record.b);
+    const Pose& pose_a = pose_[static_cast<std::size_t>(record.pair.a)];
+    const Pose& pose_b = pose_[static_cast<std::size_t>(record.pair.b)];
+    const double margin = state.def.contact_margin * record.size +
+                          travel_[static_cast<std::size_t>(record.a)] +
+                          travel_[static_cast<std::size_t>(record.b)];
     if ((pose_a.c - pose_b.c).norm() > a.bounding_radius + b.bounding_radius + margin) {
       contact.forget();
       return;
@@ -242,7 +268,8 @@ void Crowd::fill(CollisionState& state, Team& team) {
   run_chunks(team, active_.size(), [&](std::size_t k) {
     const PairRecord& record = state.pairs[active_[k]];
     const CrowdContact& contact = state.pairs.crowd_contact(record);
-    const Pose pose_a = pose_of(state, record.pair.a), pose_b = pose_of(state, record.pair.b);
+    const Pose& pose_a = pose_[static_cast<std::size_t>(record.pair.a)];
+    const Pose& pose_b = pose_[static_cast<std::size_t>(record.pair.b)];
     const Mat3 R_a = pose_a.q.toRotationMatrix(), R_b = pose_b.q.toRotationMatrix();
     SoftManifold& m = manifolds_[k];
     m.a = local_[static_cast<std::size_t>(record.a)];
@@ -281,7 +308,8 @@ void Crowd::recall(CollisionState& state) {
       contact.points[static_cast<std::size_t>(j)].normal_impulse = m.points[j].normal_impulse;
       sum += m.points[j].normal_impulse;
     }
-    contact.friction_in_a = pose_of(state, record.pair.a).q.conjugate() * m.friction_impulse;
+    contact.friction_in_a =
+        pose_[static_cast<std::size_t>(record.pair.a)].q.conjugate() * m.friction_impulse;
     contact.twist_impulse = m.twist_impulse;
     record.standing = sum > 0;
   }
@@ -307,7 +335,12 @@ void Crowd::add_forces(const CollisionState& state, const PairRecord& record,
                        std::vector<ContactForce>& forces) const {
   if (record.crowd_contact < 0 || !(last_h_ > 0)) return;
   const CrowdContact& contact = state.pairs.crowd_contact(record);
-  const Pose pose_a = pose_of(state, record.pair.a), pose_b = pose_of(state, record.pair.b);
+  const World& world = state.world();
+  const auto pose = [&](int collider, int body) {
+    return collider_pose(state.colliders[static_cast<std::size_t>(collider)],
+                         {position(world.y, body), orientation(world.y, body)});
+  };
+  const Pose pose_a = pose(record.pair.a, record.a), pose_b = pose(record.pair.b, record.b);
   const Vec3 normal = pose_a.q * contact.normal_in_a;
   Vec3 friction = pose_a.q * contact.friction_in_a / last_h_;
   for (int k = 0; k < contact.count; ++k) {

@@ -49,19 +49,24 @@ class Crowd {
                   std::vector<ContactForce>& forces) const;
 
  private:
-  int parts(const CollisionState& state, double duration) const;
+  int parts(const CollisionState& state, double duration);
   void gather_bodies(const CollisionState& state, std::span<Island* const> islands);
   void measure(CollisionState& state, double h, Team& team);
   void fill(CollisionState& state, Team& team);
   void recall(CollisionState& state);
   int local(const CollisionState& state, int column);
-  Pose body_pose(const CollisionState& state, Eigen::Index i) const;
-  Pose pose_of(const CollisionState& state, int collider) const;
+  void place_immovable(const CollisionState& state, int i, double h);
+  double travel(const CollisionState& state, Eigen::Index i, const Vec3& omega, double h) const;
   void scatter(CollisionState& state, Result& result);
 
   std::vector<std::uint8_t> member_;    // per body
   std::vector<std::uint8_t> may_step_;  // per body: nothing acts on it that soft_step does not know
   std::vector<Aabb> near_;              // per collider of a body looked at
+  // Of the bodies that take part, where the step is.
+  std::vector<Pose> pose_;             // per collider
+  std::vector<double> travel_;         // [m] per body: no point of it moves farther in the step
+  std::vector<std::uint64_t> placed_;  // per body that nothing moves: the step it was placed in
+  std::uint64_t step_ = 0;
 
   SoftStep solver_;
   double last_h_ = 0;                  // [s] of a sub-step
