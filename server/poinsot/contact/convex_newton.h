@@ -51,6 +51,7 @@ class ConvexNewton {
  private:
   struct Scratch;
 
+  SolveResidual improve(double residual, bool first);
   SolveResidual iterate();
 
   std::unique_ptr<Scratch> scratch_;

@@ -10,15 +10,14 @@ namespace poinsot {
 namespace {
 
 constexpr int kUnsound = -2;
-// [-] R of a point beside its inverse effective mass. Smaller: fewer passes; larger: better
-// conditioned. Passes take the error back, so this is no property of the result.
-constexpr double kSoftness = 1e-7;
 // [-] of the mean inverse inertia: what a body that turns about some axes only has about the rest.
 constexpr double kLeastTurn = 1e-12;
 // [-] velocities at points are sums of this many roundings.
 constexpr double kRoundings = 8;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 Vec3 perpendicular(const Vec3& n) {
   Eigen::Index least = 0;
@@ -101,8 +100,7 @@ void NewtonProblem::add(NewtonPoint& point, const Vec3& place, std::span<const C
   point.carried = point.frame.transpose() * carried;
   point.w_normal = point.joint ? w.mean() : w[0];
   point.w_tangent = point.joint ? w.mean() : 0.5 * (w[1] + w[2]);
-  if (!std::isfinite(w.sum() + point.carried.sum() + 1 / (kSoftness * w.minCoeff()))) return;
-  point.scale = ConeScale::of(kSoftness * point.w_normal, kSoftness * point.w_tangent);
+  if (!std::isfinite(w.sum() + point.carried.sum() + 1 / w.minCoeff())) return;
   if (!std::isfinite(point.trial.sum())) point.trial.setZero();
   point.moved.setZero();
   points.push_back(point);
@@ -113,6 +111,7 @@ void NewtonProblem::load(std::span<const ContactBody> from, std::span<const Cont
                          bool frictional, bool warm) {
   load_bodies(from);
   points.clear();
+  softness_ = 0;
   NewtonPoint point;
   point.joint = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -191,8 +190,7 @@ SolveResidual NewtonProblem::measure_trial() const {
       result.joint = std::max(result.joint, beside.norm());
       continue;
     }
-    result.normal =
-        std::max(result.normal, std::abs(std::min(p.trial[0] * p.w_normal, beside[0])));
+    result.normal = std::max(result.normal, std::abs(std::min(p.trial[0] * p.w_normal, beside[0])));
     const double y[2] = {p.w_tangent * p.trial[1] - beside[1],
                          p.w_tangent * p.trial[2] - beside[2]};
     const double length = std::sqrt(y[0] * y[0] + y[1] * y[1]);
@@ -205,6 +203,19 @@ SolveResidual NewtonProblem::measure_trial() const {
   return result;
 }
 
+void NewtonProblem::set_softness(double softness) {
+  if (softness == softness_) return;
+  softness_ = softness;
+  for (NewtonPoint& p : points)
+    p.scale = ConeScale::of(softness * p.w_normal, softness * p.w_tangent);
+}
+
+double NewtonProblem::largest_load() const {
+  double largest = 0;
+  for (const NewtonPoint& p : points)
+    if (!p.joint) largest = std::max(largest, p.w_normal * p.start[0]);
+  return largest;
+}
 
 double NewtonProblem::rounding() const {
   double largest = 0;

@@ -12,7 +12,9 @@ namespace {
 constexpr double kRidge = 1e-14;
 constexpr double kWorse = 2;  // [-] growth of the error that ends trust in what was remembered
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 double dot(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;
