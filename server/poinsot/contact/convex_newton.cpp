@@ -22,10 +22,11 @@ struct ConvexNewton::Scratch {
 
 namespace {
 
-// [-] R beside inverse effective masses where active sets are guessed; as small as the
-// factorisation bears, for every pass leaves this much of the error, times the condition of the
-// contacts.
-constexpr double kHard = 1e-8;
+// [-] R beside inverse effective masses where active sets are guessed: every pass leaves this much
+// of the error, times the condition of the contacts, of which the mass ratio is part. Not smaller
+// than the factorisation bears.
+constexpr double kHard = 1e-8, kHardest = 1e-12;
+constexpr double kLeft = 1e-3;  // [-] of the error, beside what depth of stacks adds
 // [-] the same for a pass proper, beside the residual's part of the loads: then points that change
 // their regions do so over what is left to be moved, and Newton's method sees them in time.
 constexpr double kSoftestPass = 1e-2, kHardestPass = 1e-7;
@@ -33,7 +34,7 @@ constexpr double kAccepted = 0.3;     // [-] of the residual, that a guess must 
 constexpr double kMuchNearer = 0.1;   // [-] of the residual, that ends a pass before its own end
 constexpr double kInnerPart = 0.05;   // [-] of the residual, to which a pass is solved …
 constexpr double kInnerSpeed = 1e-8;  // [m/s] … but to this at least
-constexpr int kPatience = 8;          // passes without progress that end a solve
+constexpr int kPatience = 15;         // passes without progress that end a solve
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -68,7 +69,8 @@ SolveResidual ConvexNewton::improve(double residual, bool first) {
   NewtonProblem& problem = scratch_->problem;
   NewtonPass& pass = scratch_->pass;
   scratch_->acceleration.choose_shifts(problem);
-  problem.set_softness(kHard);
+  const double hard = std::clamp(kLeft / problem.mass_ratio, kHardest, kHard);
+  problem.set_softness(hard);
   SolveResidual next = pass.guess(problem);
   if (next.worst() <= kAccepted * residual) return next;
   const double load = problem.largest_load();
@@ -84,7 +86,7 @@ SolveResidual ConvexNewton::improve(double residual, bool first) {
     scratch_->acceleration.choose_shifts(problem);
   }
   problem.set_softness(load > 0 ? std::clamp(residual / load, kHardestPass, kSoftestPass)
-                                : kHardestPass);
+                                : kSoftestPass);
   const double tolerable =
       std::max(problem.rounding(), std::min(kInnerPart * residual, kInnerSpeed));
   return pass.run(problem, kMuchNearer * residual, tolerable, max_iterations - pass.iterations);
@@ -93,10 +95,11 @@ SolveResidual ConvexNewton::improve(double residual, bool first) {
 SolveResidual ConvexNewton::iterate() {
   NewtonProblem& problem = scratch_->problem;
   NewtonPass& pass = scratch_->pass;
-  scratch_->acceleration.restart();
+  scratch_->acceleration.load(problem.points.size());
   pass.load(problem);
   SolveResidual now = problem.follow_trial(), least;
   int best_pass = 0, k = 0;
+  bool stilled = false;
   for (;; ++k) {
     problem.accept_trial();
     if (k == 0 || now.worst() < least.worst()) {
@@ -108,6 +111,13 @@ SolveResidual ConvexNewton::iterate() {
     if (least.converged || k >= max_passes || pass.iterations >= max_iterations ||
         k - best_pass > kPatience)
       break;
+    if (k - best_pass == kPatience / 2 && !stilled) {
+      // Sliding that its own friction ends within the impulse: no shift of a sliding point fits.
+      scratch_->restore();
+      scratch_->acceleration.restart(true);
+      now = least;
+      stilled = true;
+    }
     now = improve(now.worst(), k == 0);
   }
   if (best_pass != k) scratch_->restore();

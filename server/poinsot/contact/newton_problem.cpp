@@ -73,6 +73,12 @@ void NewtonProblem::load_bodies(std::span<const ContactBody> from) {
     body.omega_free = body.omega = source.omega;
     body.reach = 0;
   }
+  double least = 0, largest = 0;
+  for (const NewtonBody& body : bodies) {
+    least = least > 0 ? std::min(least, body.mass) : body.mass;
+    largest = std::max(largest, body.mass);
+  }
+  mass_ratio = largest > 0 ? largest / least : 1.0;
 }
 
 void NewtonProblem::add(NewtonPoint& point, const Vec3& place, std::span<const ContactBody> from,

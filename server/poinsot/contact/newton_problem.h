@@ -67,6 +67,7 @@ class NewtonProblem {
 
   double largest_load() const;  // [m/s] λn w of the accepted impulses
 
+  double mass_ratio = 1;  // of the heaviest body to the lightest
   std::vector<NewtonBody> bodies;
   std::vector<NewtonPoint> points;
 
