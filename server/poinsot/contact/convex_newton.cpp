@@ -29,8 +29,8 @@ constexpr double kHard = 1e-8, kHardest = 1e-12;
 constexpr double kLeft = 1e-3;  // [-] of the error, beside what depth of stacks adds
 // [-] the same for a pass proper, beside the residual's part of the loads: then points that change
 // their regions do so over what is left to be moved, and Newton's method sees them in time.
-constexpr double kSoftestPass = 1e-2, kHardestPass = 1e-7;
-constexpr double kAccepted = 0.3;     // [-] of the residual, that a guess must come down to
+constexpr double kSoftestPass = 1e-2, kHardestPass = 1e-4;
+constexpr double kAccepted = 0.5;     // [-] of the residual, that a guess must come down to
 constexpr double kMuchNearer = 0.1;   // [-] of the residual, that ends a pass before its own end
 constexpr double kInnerPart = 0.05;   // [-] of the residual, to which a pass is solved …
 constexpr double kInnerSpeed = 1e-8;  // [m/s] … but to this at least
