@@ -122,8 +122,8 @@ void NewtonProblem::load(std::span<const ContactBody> from, std::span<const Cont
   point.joint = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
-    if (!std::isfinite(contact.point.sum() + contact.normal.sum() + contact.friction + target[i]))
-      continue;
+    const double sum = contact.point.sum() + contact.normal.sum() + contact.friction + target[i];
+    if (!std::isfinite(sum + 1 / contact.normal.squaredNorm())) continue;
     const Vec3 t = perpendicular(contact.normal);
     point.frame << contact.normal, t, contact.normal.cross(t);
     point.source = static_cast<int>(i);
