@@ -7,10 +7,6 @@ struct Pair {
   Vec3Lanes v_a, omega_a, v_b, omega_b;
 };
 
-POINSOT_INLINE Lanes velocity_of(const HotBody& body) {
-  return body.v;
-}
-
 POINSOT_INLINE void gather(const HotBody* bodies, const std::array<int, kLanes>& index,
                            Lanes HotBody::*member, Vec3Lanes& to, Lanes& w) {
   to.x = bodies[index[0]].*member;
@@ -92,17 +88,37 @@ POINSOT_INLINE void spread(const SoftBlock& block, int from, Lanes change, Lanes
 }
 
 // One pass over the points: each is given the impulse that makes its velocity `target`, or none.
-// Soft points are given a part of it and lose a part of what they have.
 template <int count>
-POINSOT_INLINE Push solve_points(SoftBlock& block, Lanes* velocity, const Lanes* target,
-                                 double give, double fade) {
+POINSOT_INLINE Push solve_points(SoftBlock& block, Lanes* velocity, const Lanes* target) {
   Push push = {};
   for (int i = 0; i < count; ++i) {
     SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
-    const LaneMask soft = point.gap < 0.0;
-    const Lanes stop = point.inv_response * (velocity[i] - target[i]);
     const Lanes impulse =
-        positive_part(point.impulse - (soft ? give * stop + fade * point.impulse : stop));
+        positive_part(point.impulse - point.inv_response * (velocity[i] - target[i]));
+    const Lanes change = impulse - point.impulse;
+    point.impulse = impulse;
+    spread<count>(block, i, change, velocity);
+    add(push, point, change);
+  }
+  return push;
+}
+
+// The same with softness: points that rest are given more, as far as that does not lift them off,
+// and let go part of what exceeds their usual load.
+template <int count>
+POINSOT_INLINE Push solve_soft_points(SoftBlock& block, Lanes* velocity, const Lanes* target,
+                                      const SoftRates& rates) {
+  const Lanes reach = block.near * rates.inv_h;
+  Push push = {};
+  for (int i = 0; i < count; ++i) {
+    SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
+    const LaneMask rests = point.gap <= block.near;
+    const Lanes off = velocity[i] - target[i];
+    const Lanes more = rates.overshoot * larger(-reach, smaller(reach, off));
+    const Lanes less = rates.fade * (point.impulse - point.load);
+    const Lanes firm = point.impulse - point.inv_response * off;
+    const Lanes soft = firm - point.inv_response * more - less;
+    const Lanes impulse = positive_part(rests ? soft : firm);
     const Lanes change = impulse - point.impulse;
     point.impulse = impulse;
     spread<count>(block, i, change, velocity);
@@ -229,10 +245,14 @@ POINSOT_INLINE void warm_start_block(SoftBlock& block, HotBody* bodies) {
         block.n * block.twist + (block.t1 * push.about_1 + block.t2 * push.about_2), pair, bodies);
 }
 
-// Speed at which a point shall move: apart points may meet, others are moved apart.
+// Speeds at which points are moved apart, and at which they may meet: nearly touching, as slowly.
 POINSOT_INLINE Lanes push_out(const SoftBlock& block, Lanes gap, const SoftRates& rates) {
   return smaller(positive_part(-gap - block.slop) * rates.push_out_rate,
                  all_lanes(rates.push_out_speed));
+}
+POINSOT_INLINE Lanes meet(const SoftBlock& block, Lanes gap, const SoftRates& rates) {
+  return larger(positive_part(gap) * rates.push_out_rate,
+                (gap - block.near) * rates.inv_h + block.near * rates.push_out_rate);
 }
 
 template <int count>
@@ -241,12 +261,12 @@ POINSOT_INLINE void push_count(SoftBlock& block, HotBody* bodies, const SoftRate
   const Vec3Lanes push = push_part(block, twist_of(block, pair));
   Lanes velocity[count], target[count];
   for (int i = 0; i < count; ++i) {
-    const SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
+    SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
+    point.load += rates.learn * (point.impulse - point.load);
     velocity[i] = point_velocity(point, push);
-    target[i] = point.gap > 0.0 ? -point.gap * rates.inv_h : push_out(block, point.gap, rates);
+    target[i] = push_out(block, point.gap, rates) - meet(block, point.gap, rates);
   }
-  apply_push(block, solve_points<count>(block, velocity, target, rates.give, rates.fade), pair,
-             bodies);
+  apply_push(block, solve_soft_points<count>(block, velocity, target, rates), pair, bodies);
 }
 
 // (Rᵀ − 1) n for the rotation of a unit quaternion with vector part u.
@@ -341,9 +361,9 @@ POINSOT_INLINE void relax_count(SoftBlock& block, HotBody* bodies, const SoftRat
   for (int i = 0; i < count; ++i) {
     const SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
     velocity[i] = point_velocity(point, push);
-    target[i] = -positive_part(point.gap) * rates.inv_h;
+    target[i] = -positive_part(point.gap - block.near) * rates.inv_h;
   }
-  const Push change = solve_points<count>(block, velocity, target, 1, 0);
+  const Push change = solve_points<count>(block, velocity, target);
   const Vec3Lanes jump = block.push_push * Vec3Lanes{change.force, change.about_1, change.about_2};
   Lanes residual = {};
   for (int i = 0; i < count; ++i) {

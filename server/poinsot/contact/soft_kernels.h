@@ -36,6 +36,7 @@ struct SoftPointLanes {
   Lanes gap;           // [m]
   Lanes start_gap;     // [m] at the start of the step
   Lanes impulse;       // [N·s]
+  Lanes load;          // [N·s] its mean for long
   Lanes inv_response;  // [kg]
   Lanes approach;      // [m/s] relative normal velocity at the start of the step
   Lanes peak;          // [N·s] largest impulse so far
@@ -60,7 +61,8 @@ struct alignas(64) SoftBlock {
   Lanes point_point[6];                         // 01 02 03 12 13 23
   Lanes inv_drag_11, inv_drag_12, inv_drag_22;  // [kg]
   Lanes slip_gain, inv_twist;                   // [kg], [kg·m²]
-  Lanes friction, restitution, slop;
+  Lanes friction, restitution;
+  Lanes slop, near;                            // [m]
   Lanes drag_1 = {}, drag_2 = {}, twist = {};  // [N·s], [N·s], [N·m·s]
   std::array<SoftPointLanes, kPoints> points;
 
@@ -69,13 +71,12 @@ struct alignas(64) SoftBlock {
 };
 
 struct SoftRates {
-  double h, inv_h;        // [s], [1/s]
-  double push_out_rate;   // [1/s]
-  double push_out_speed;  // [m/s]
-  double rest_speed;      // [m/s]
-  // Of a point that penetrates: parts of the impulse that would stop it, and of the whole that is
-  // let go.
-  double give, fade;
+  double h, inv_h;                // [s], [1/s]
+  double push_out_rate;           // [1/s]
+  double push_out_speed;          // [m/s]
+  double rest_speed;              // [m/s]
+  double rolling_arm;             // [m]
+  double overshoot, fade, learn;  // [-] see soft_blocks.cpp
 };
 
 struct SoftKernels {

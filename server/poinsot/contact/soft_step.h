@@ -47,6 +47,9 @@ struct SoftManifold {
     Vec3 arm_a, arm_b;          // [m] in W from c to the point on either surface
     double gap = 0;             // [m] at the start of the step, along the normal
     double normal_impulse = 0;  // [N·s] of a sub-step: start of the next step, and result
+    // [N·s] Its mean over hundreds of sub-steps, likewise: what it is not let go below. A point
+    // that forgets it sags under its load.
+    double usual_impulse = 0;
   } points[kMaxPoints];
   Vec3 friction_impulse = Vec3::Zero();  // [N·s] on a, in W, perpendicular to the normal, likewise
   double twist_impulse = 0;              // [N·m·s] on a about the normal, likewise
