@@ -114,7 +114,7 @@ POINSOT_INLINE Push solve_soft_points(SoftBlock& block, Lanes* velocity, const L
     SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
     const LaneMask rests = point.gap <= block.near;
     const Lanes off = velocity[i] - target[i];
-    const Lanes more = rates.overshoot * larger(-reach, smaller(reach, off));
+    const Lanes more = block.overshoot * larger(-reach, smaller(reach, off));
     const Lanes less = rates.fade * (point.impulse - point.load);
     const Lanes firm = point.impulse - point.inv_response * off;
     const Lanes soft = firm - point.inv_response * more - less;

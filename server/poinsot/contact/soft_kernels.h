@@ -62,7 +62,8 @@ struct alignas(64) SoftBlock {
   Lanes inv_drag_11, inv_drag_12, inv_drag_22;  // [kg]
   Lanes slip_gain, inv_twist;                   // [kg], [kg·m²]
   Lanes friction, restitution;
-  Lanes slop, near;                            // [m]
+  Lanes slop, near;  // [m]
+  Lanes overshoot;   // [-] of the impulse that would stop a resting point; below 0: it is softer
   Lanes drag_1 = {}, drag_2 = {}, twist = {};  // [N·s], [N·s], [N·m·s]
   std::array<SoftPointLanes, kPoints> points;
 
@@ -71,12 +72,12 @@ struct alignas(64) SoftBlock {
 };
 
 struct SoftRates {
-  double h, inv_h;                // [s], [1/s]
-  double push_out_rate;           // [1/s]
-  double push_out_speed;          // [m/s]
-  double rest_speed;              // [m/s]
-  double rolling_arm;             // [m]
-  double overshoot, fade, learn;  // [-] see soft_blocks.cpp
+  double h, inv_h;        // [s], [1/s]
+  double push_out_rate;   // [1/s]
+  double push_out_speed;  // [m/s]
+  double rest_speed;      // [m/s]
+  double rolling_arm;     // [m]
+  double fade, learn;     // [-] see soft_blocks.cpp
 };
 
 struct SoftKernels {
