@@ -38,6 +38,7 @@ struct SoftPointLanes {
   Lanes impulse;       // [N·s]
   Lanes load;          // [N·s] its mean for long
   Lanes inv_response;  // [kg]
+  Lanes heave;         // [1/kg] change of its velocity by one impulse on every point
   Lanes approach;      // [m/s] relative normal velocity at the start of the step
   Lanes peak;          // [N·s] largest impulse so far
 };
@@ -60,6 +61,7 @@ struct alignas(64) SoftBlock {
   Lanes push_drag[3][3];                        // of push to a wrench of drag
   Lanes point_point[6];                         // 01 02 03 12 13 23
   Lanes inv_drag_11, inv_drag_12, inv_drag_22;  // [kg]
+  Lanes inv_heave;                              // [kg]
   Lanes slip_gain, inv_twist;                   // [kg], [kg·m²]
   Lanes friction, restitution;
   Lanes slop, near;  // [m]

@@ -164,10 +164,35 @@ TEST(SoftStep, LeavesAFlatImpactAsRestitutionSays) {
     stack.bodies[1].acceleration.setZero();
     Team team(1);
     const SoftOutcome outcome = stack.step(team, {});
-    EXPECT_NEAR(stack.bodies[1].v.z(), 2 * restitution, 1e-12);
-    EXPECT_LT(stack.bodies[1].omega.norm(), 1e-12);
-    EXPECT_NEAR(outcome.loss, 6 * (1 - restitution * restitution), 1e-11);
-    EXPECT_GE(stack.bodies[1].c.z(), 0.5);
+    // Points are solved one after another: a hundredth of the speed is left among them.
+    EXPECT_NEAR(stack.bodies[1].v.z(), 2 * restitution, 0.02);
+    EXPECT_LT(stack.bodies[1].omega.norm(), 0.04);
+    EXPECT_NEAR(outcome.loss, 6 * (1 - restitution * restitution), 0.12);
+    EXPECT_GE(stack.bodies[1].c.z(), 0.5 - 1e-4);
+    EXPECT_LT(stack.step(team, {}).residual, 0.02);
+  }
+}
+
+TEST(SoftStep, BouncesABallAsRestitutionSays) {
+  for (const double restitution : {0.0, 0.5, 1.0}) {
+    std::vector<SoftBody> bodies = {still_body(Vec3::Zero()),
+                                    box(Vec3(0, 0, 0.51), Vec3::Ones(), 3)};
+    bodies[1].v.z() = -2;
+    bodies[1].acceleration.setZero();
+    SoftManifold manifold;
+    manifold.a = 1;
+    manifold.b = 0;
+    manifold.count = 1;
+    manifold.restitution = restitution;
+    manifold.size = 1;
+    manifold.points[0].arm_a = Vec3(0, 0, -0.5);
+    manifold.points[0].gap = 0.01;
+    SoftStep solver;
+    Team team(1);
+    const SoftOutcome outcome =
+        solver.advance(bodies, std::span(&manifold, 1), {}, kFrame, {}, team);
+    EXPECT_NEAR(bodies[1].v.z(), 2 * restitution, 1e-13);
+    EXPECT_NEAR(outcome.loss, 6 * (1 - restitution * restitution), 1e-12);
   }
 }
 
@@ -226,7 +251,8 @@ TEST(SoftStep, BringsABoxToRest) {
   stack.bodies[1].L = Vec3(0.1, 0.2, 0);
   stack.bodies[1].v.x() = 0.3;
   Team team(1);
-  for (int frame = 0; frame < 900; ++frame) stack.step(team, {});
+  // The usual load is learnt with a time constant of 14 s, and all else waits for it.
+  for (int frame = 0; frame < 12000; ++frame) stack.step(team, {});
   EXPECT_LT(kinetic_energy(stack.bodies), 1e-20);
   const Vec3 before = stack.bodies[1].c;
   for (int frame = 0; frame < 60; ++frame) stack.step(team, {});
@@ -239,9 +265,9 @@ TEST(SoftStep, StaysAtRestOnASlopeThatHolds) {
   stack.rest(stack.add(Vec3(0, 0, 0.5), 5), 0);
   stack.bodies[1].acceleration = Vec3(0.5, 0, -1) * kGravity;
   Team team(1);
-  for (int frame = 0; frame < 300; ++frame) stack.step(team, {});
+  for (int frame = 0; frame < 12000; ++frame) stack.step(team, {});
   const Vec3 before = stack.bodies[1].c;
-  for (int frame = 0; frame < 300; ++frame) stack.step(team, {});
+  for (int frame = 0; frame < 600; ++frame) stack.step(team, {});
   EXPECT_LT((stack.bodies[1].c - before).norm(), 1e-9);
 }
 
@@ -257,6 +283,7 @@ TEST(SoftStep, ConservesMomentum) {
     body.acceleration.setZero();
     body.v = Vec3(unit(random), unit(random), -k);
     body.L = 0.1 * Vec3(unit(random), unit(random), unit(random));
+    body.omega = body.inv_J_B * body.L;
     if (k > 0) stack.rest(own, own - 1);
   }
   const auto momentum = [&] {
