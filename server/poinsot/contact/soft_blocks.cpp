@@ -38,6 +38,20 @@ void make_frame(const Vec3& n, Vec3& t1, Vec3& t2) {
   t2 = Vec3(b, sign + n.y() * n.y() * a, -n.y());
 }
 
+// Before lanes are packed. Those that stay empty do nothing if all is zero.
+void clear(SoftBlock& block, bool has_empty_lanes, int nobody) {
+  if (has_empty_lanes) {
+    block = SoftBlock{};
+    block.source.fill(-1);
+    block.a.fill(nobody);
+    block.b.fill(nobody);
+  } else {
+    block.count = 0;
+    block.bounces = block.turns = false;
+    block.push_work = block.residual = Lanes{};
+  }
+}
+
 // Where friction acts, from a's centre: where the load was, or the middle of the points.
 Vec3 friction_arm(const SoftManifold& manifold, const Vec3& between) {
   double load = 0;
@@ -89,6 +103,8 @@ void SoftBlocks::pack_lane(const SoftManifold& manifold, int source,
   for (int i = 0; i < SoftBlock::kPoints; ++i) {
     SoftPointLanes& to = block.points[static_cast<std::size_t>(i)];
     if (i >= manifold.count) {
+      to.x[lane] = to.y[lane] = to.radius[lane] = to.impulse[lane] = to.load[lane] = 0;
+      to.peak[lane] = 0;
       to.gap[lane] = to.start_gap[lane] = kNoGap;
       continue;
     }
@@ -100,6 +116,7 @@ void SoftBlocks::pack_lane(const SoftManifold& manifold, int source,
     to.gap[lane] = to.start_gap[lane] = point.gap;
     to.impulse[lane] = point.normal_impulse;
     to.load[lane] = point.usual_impulse;
+    to.peak[lane] = 0;
   }
 }
 
@@ -158,10 +175,7 @@ void SoftBlocks::pack(std::size_t piece, std::span<const SoftBody> bodies,
   const std::size_t last = std::min((piece + 1) * kPieceBlocks, order_.size() / kLanes);
   for (std::size_t k = piece * kPieceBlocks; k < last; ++k) {
     SoftBlock& block = blocks_[k];
-    block = SoftBlock{};
-    block.source.fill(-1);
-    block.a.fill(static_cast<int>(bodies.size()));
-    block.b.fill(static_cast<int>(bodies.size()));
+    clear(block, order_[k * kLanes + kLanes - 1] < 0, static_cast<int>(bodies.size()));
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const int source = order_[k * kLanes + lane];
       if (source >= 0)
