@@ -55,9 +55,10 @@ class ModelText {
   const std::string& text() const { return text_; }
 
  private:
-  // Eight contacts a body, of four rows each.
+  // Eight contacts a body where bodies are few, else four, of four rows each: all rows by all rows
+  // are a matrix, and the engine counts its bytes in 31 bits.
   static std::string room(std::size_t bodies) {
-    const std::size_t contacts = 8 * bodies + 50;
+    const std::size_t contacts = (bodies > 100 ? 4 : 8) * bodies + 100;
     return "nconmax='" + std::to_string(contacts) + "' njmax='" + std::to_string(4 * contacts) +
            "'";
   }
@@ -122,7 +123,8 @@ class MuJoCo final : public ContactWorld {
     for (int i = 0; i < steps_; ++i) mj_step(model_.get(), data_.get());
     for (const int warning :
          {mjWARN_CONTACTFULL, mjWARN_CNSTRFULL, mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})
-      if (data_->warning[warning].number > 0) throw std::runtime_error(mju_warningText(warning, 0));
+      if (data_->warning[warning].number > 0)
+        throw std::runtime_error(mju_warningText(warning, data_->warning[warning].lastinfo));
   }
 
   void read(std::vector<ContactState>& states) const override {
