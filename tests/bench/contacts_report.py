@@ -22,7 +22,7 @@ ACCURACY = {
                           "top drift [m]"),
     "incline_stick": ("Box that sticks on 20°, μ 0.5, 8 azimuths, 10 s", "drift [m]", "over time [m]",
                       "spread [m]"),
-    "incline_slide": ("Box that slides down 30°, μ 0.5, 24 azimuths, 2 s", "distance [relative]", "",
+    "incline_slide": ("Slab that slides down 30°, μ 0.5, 24 azimuths, 2 s", "distance [relative]", "",
                       "spread [relative]"),
     "sliding_stop": ("Box from 5 m/s to its stop, μ 0.3", "distance [m]", "", "lift-off [m]"),
     "slip_to_roll": ("Sphere from 7 m/s slip to roll, μ 0.2, 2 s", "distance [m]", "", "speed error [m/s]"),

@@ -36,12 +36,23 @@ std::unique_ptr<btCollisionShape> shape_of(const Shape& shape) {
   return hull;
 }
 
+struct Way {
+  int iterations, steps;
+  bool two_directions = false;  // of friction, across each other; by default it has the slip's
+
+  std::string name() const {
+    return std::string(two_directions ? "SI-2-x" : "SI-x") + std::to_string(iterations) + " 1/" +
+           std::to_string(60 * steps);
+  }
+};
+
 class Bullet final : public ContactWorld {
  public:
-  Bullet(const ContactScene& c, int iterations, int steps)
-      : steps_(steps), h_(1 / (kFrameRate * steps)), friction_(std::sqrt(c.friction)) {
+  Bullet(const ContactScene& c, const Way& way)
+      : steps_(way.steps), h_(1 / (kFrameRate * steps_)), friction_(std::sqrt(c.friction)) {
     world_.setGravity({0, 0, -kGravity});
-    world_.getSolverInfo().m_numIterations = iterations;
+    world_.getSolverInfo().m_numIterations = way.iterations;
+    if (way.two_directions) world_.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     for (const ContactBody& body : c.bodies) add(body);
     moving_ = bodies_.size();
     for (const ContactBody& wall : c.walls) add(wall);
@@ -94,21 +105,17 @@ class Bullet final : public ContactWorld {
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
-struct Way {
-  int iterations, steps;
-};
-
 std::vector<ContactSetting> settings(const ContactCase& c) {
   std::vector<Way> ways = {{10, 1}, {10, 4}, {50, 1}};
   if (c.question != Question::piles)
-    ways.insert(ways.end(), {{10, 17}, {50, 4}, {50, 17}, {200, 4}});
+    ways.insert(
+        ways.end(),
+        {{10, 17}, {50, 4}, {50, 17}, {200, 4}, {10, 1, true}, {10, 4, true}, {50, 17, true}});
   std::vector<ContactSetting> result;
   for (const Way& way : ways)
-    result.push_back(
-        {"SI-x" + std::to_string(way.iterations) + " 1/" + std::to_string(60 * way.steps),
-         [way](const ContactScene& scene) {
-           return std::make_unique<Bullet>(scene, way.iterations, way.steps);
-         }});
+    result.push_back({way.name(), [way](const ContactScene& scene) {
+                        return std::make_unique<Bullet>(scene, way);
+                      }});
   return result;
 }
 
