@@ -33,7 +33,7 @@ double seconds(clockid_t clock) {
 struct Options {
   std::vector<std::string> cases;
   double limit = 60;  // [s]
-  bool defaults = false, header = false;
+  bool defaults = false, header = false, list = false;
 };
 
 Options read_options(int argc, char** argv) {
@@ -46,6 +46,8 @@ Options read_options(int argc, char** argv) {
       options.defaults = true;
     } else if (argument == "--header") {
       options.header = true;
+    } else if (argument == "--list") {
+      options.list = true;
     } else if (argument == "all" || argument == "accuracy" || argument == "piles") {
       for (const std::string& name : contact_case_names())
         if (argument == "all" ||
@@ -315,6 +317,10 @@ int measure_contacts(const std::string& engine, const ContactSettings& settings,
     const Options options = read_options(argc, argv);
     if (options.header) std::printf("%s\n", kColumns);
     for (const std::string& name : options.cases) {
+      if (options.list) {
+        std::printf("%s\n", name.c_str());
+        continue;
+      }
       const ContactCase c = contact_case(name);
       for (const ContactSetting& setting : settings(c)) {
         print_row(engine, c, setting, options.limit);

@@ -49,7 +49,8 @@ struct ContactSetting {
 using ContactSettings = std::function<std::vector<ContactSetting>(const ContactCase&)>;
 
 // Arguments: names of cases, or `accuracy`, `piles`, `all`; --limit S: wall time of a run (default
-// 60); --defaults: the first setting only; --header: the columns. Returns the exit code.
+// 60); --defaults: the first setting only; --header: the columns; --list: names of the cases
+// instead. Returns the exit code.
 int measure_contacts(const std::string& engine, const ContactSettings& settings, int argc,
                      char** argv);
 

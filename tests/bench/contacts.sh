@@ -50,15 +50,23 @@ ninja -C "$build" --quiet "${targets[@]}" >&2
 
 mkdir -p "$out"
 rm -f "$out"/round_*.csv "$out/messages.log"
+program() {
+  [[ $1 == poinsot ]] && echo "$build/tests/bench/bench_contacts" ||
+    echo "$build/tests/bench/peers/bench_contacts_$1"
+}
+# Engines take turns within a case, so that what else the machine does falls on all of them.
+names=$("$(program "${engines[0]}")" --list "${cases[@]}")
 for ((round = 1; round <= rounds; ++round)); do
-  for engine in "${engines[@]}"; do
-    program=$build/tests/bench/peers/bench_contacts_$engine choices=("")
-    [[ $engine != poinsot ]] || { program=$build/tests/bench/bench_contacts; choices=("${ours[@]}"); }
-    for choice in "${choices[@]}"; do
-      echo "Round $round of $rounds: $engine $choice" >&2
-      # shellcheck disable=SC2086 -- the choice is several words
-      "$program" --header $choice "${options[@]}" "${cases[@]}" >>"$out/round_$round.csv" \
-        2>>"$out/messages.log"
+  for name in $names; do
+    for engine in "${engines[@]}"; do
+      choices=("")
+      [[ $engine != poinsot ]] || choices=("${ours[@]}")
+      for choice in "${choices[@]}"; do
+        echo "Round $round of $rounds: $name, $engine $choice" >&2
+        # shellcheck disable=SC2086 -- the choice is several words
+        "$(program "$engine")" --header $choice "${options[@]}" "$name" >>"$out/round_$round.csv" \
+          2>>"$out/messages.log"
+      done
     done
   done
 done

@@ -130,7 +130,7 @@ def draw(path, rows):
             name, color = ENGINES[engine]
             kind = used[engine] = used.get(engine, 0) + 1
             script += [f"$data{n} << EOD", *(f"{cost} {e}" for cost, e in points), "EOD"]
-            plots.append(f"$data{n} with linespoints lc rgb '{color}' dt {kind} pt {kind + 3} ps 0.7 "
+            plots.append(f"$data{n} with linespoints lc rgb '{color}' dt {kind} pt {kind + 3} ps 0.7 lw {2 if engine == 'poinsot' else 1} "
                          f"title '{name} {method}' noenhanced")
         script.append("plot " + ", ".join(plots))
     subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True)
