@@ -4,7 +4,7 @@
 #   CASE           names of contact_cases.cpp, or accuracy, piles, all (default all)
 #   --out DIR      for contacts.csv, .md and .svg (default build/bench/contacts)
 #   --rounds N     costs are medians of N rounds (default 1)
-#   --limit S      wall time of a run [s] (default 60); a run cut there says how far it came
+#   --limit S      CPU time of a run [s] (default 60); a run cut there says how far it came
 #   --defaults     each engine as it comes only, not its other settings
 #   --ours "..."   options of bench_contacts, such as "--profile fast" or "--solver NAME --step S";
 #                  may be given several times
