@@ -3,7 +3,7 @@
 # run: installs what is missing, builds, runs all programs in turn, prints one table per case.
 #   CASE           names of contact_cases.cpp, or accuracy, piles, all (default all)
 #   --out DIR      for contacts.csv, .md and .svg (default build/bench/contacts)
-#   --rounds N     costs are medians of N rounds (default 1)
+#   --rounds N     costs are the least of N rounds (default 1)
 #   --limit S      CPU time of a run [s] (default 60); a run cut there says how far it came
 #   --defaults     each engine as it comes only, not its other settings
 #   --ours "..."   options of bench_contacts, such as "--profile fast" or "--solver NAME --step S";
