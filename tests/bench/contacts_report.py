@@ -89,12 +89,13 @@ def pile_table(case, rows):
     heads = ["engine", "setting", "status", "ms a frame", "to Bullet", "median", "p99", "deepest [mm]",
              "mean depth [mm]", "kinetic [J]", "lowest [m]", "lost", "MB"]
     bodies = next((row["bodies"] for row in rows if row["bodies"]), "?")
-    bullet = next((float(row["ms_mean"]) for row in rows if row["engine"] == "bullet" and row["ms_mean"]), None)
+    # A run that was cut has other frames behind it: no ratio.
+    bullet = next((float(row["ms_mean"]) for row in rows if row["engine"] == "bullet" and row["status"] == "ok"), None)
     lines = [f"## {case}: {bodies} bodies", "", line(heads), "|---" * len(heads) + "|"]
     for row in rows:
         depths = [f"{1e3 * float(row[c]):.3g}" if row[c] else "–"
                   for c in ("penetration_max_m", "penetration_mean_m")]
-        ratio = f"{float(row['ms_mean']) / bullet:.2f}" if bullet and row["ms_mean"] else "–"
+        ratio = f"{float(row['ms_mean']) / bullet:.2f}" if bullet and row["status"] == "ok" else "–"
         lines.append(line([ENGINES[row["engine"]][0], row["setting"], status(row), number(row, "ms_mean"), ratio,
                            number(row, "ms_median"), number(row, "ms_p99"), *depths, number(row, "kinetic_J"),
                            number(row, "lowest_m"), row["lost"] or "–", number(row, "rss_MB")]))
