@@ -13,6 +13,8 @@ constexpr double kRestingSteps = 2.0;
 constexpr double kImpactSteps = 0.25;
 // Planes of contact hold while the bodies turn their surfaces by less than this of the size.
 constexpr double kTurned = 0.15;
+// Of the speed at which penetration is removed: how well it is met.
+constexpr double kPushedOut = 1e-3;
 // No less than this of the usual sub-step, however fast bodies turn where they touch.
 constexpr double kLeastTurn = 1.0 / 64;
 // Slower slips are at rest [m/s]; and nothing shorter than this of a sub-step is stopped for.
@@ -157,7 +159,10 @@ void ContactStep::push_out(CollisionState& state, Books& books) {
     body.v.setZero();
     body.omega.setZero();
   }
+  const double tolerance = solver_.tolerance;
+  solver_.tolerance = kPushedOut * *std::max_element(target_.begin(), target_.end());
   solver_.push_out(bodies_, contacts_, target_);
+  solver_.tolerance = tolerance;
   for (Contact& contact : contacts_) contact.gap += h_ * relative_speed(contact, bodies_);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];

@@ -290,6 +290,7 @@ void Crowd::fill(CollisionState& state, Team& team) {
       point.arm_b = from_b + on_b;
       point.gap = m.normal.dot(apart + on_a - on_b);
       point.normal_impulse = p.normal_impulse;
+      point.usual_impulse = p.usual_impulse;
     }
     m.friction_impulse = R_a * contact.friction_in_a;
     m.twist_impulse = contact.twist_impulse;
@@ -305,7 +306,9 @@ void Crowd::recall(CollisionState& state) {
     const SoftManifold& m = manifolds_[k];
     double sum = 0;
     for (int j = 0; j < m.count; ++j) {
-      contact.points[static_cast<std::size_t>(j)].normal_impulse = m.points[j].normal_impulse;
+      CrowdContact::Point& p = contact.points[static_cast<std::size_t>(j)];
+      p.normal_impulse = m.points[j].normal_impulse;
+      p.usual_impulse = m.points[j].usual_impulse;
       sum += m.points[j].normal_impulse;
     }
     contact.friction_in_a =
