@@ -108,8 +108,7 @@ SolveResidual ConvexNewton::iterate() {
   pass.load(problem);
   scratch_->hopeless = std::numeric_limits<double>::infinity();
   SolveResidual now = problem.follow_trial(), least;
-  int best_pass = 0, k = 0;
-  bool stilled = false;
+  int best_pass = 0, stilled_pass = 0, k = 0;
   for (;; ++k) {
     problem.accept_trial();
     if (k == 0 || now.worst() < least.worst()) {
@@ -119,15 +118,15 @@ SolveResidual ConvexNewton::iterate() {
     }
     least.converged = least.worst() <= std::max(tolerance, problem.rounding());
     if (least.converged || k >= max_passes || pass.iterations >= max_iterations ||
-        k - best_pass > kPatience)
+        k - std::max(best_pass, stilled_pass) > kPatience)
       break;
-    if (k - best_pass == kPatience / 2 && !stilled) {
+    if (k - best_pass >= kPatience / 2 && stilled_pass == 0) {
       // Sliding that its own friction ends within the impulse: no shift of a sliding point fits.
       scratch_->restore();
       scratch_->acceleration.restart(true);
       scratch_->hopeless = std::numeric_limits<double>::infinity();
       now = least;
-      stilled = true;
+      stilled_pass = k;
     }
     now = improve(now.worst(), k == 0);
   }
