@@ -15,7 +15,8 @@ struct ConvexNewton::Scratch {
   NewtonPass pass;
   ShiftAcceleration acceleration;
   std::vector<Vec3> best;
-  double hopeless = 0;  // [m/s] residual from which a guess led nowhere
+  double hardening = 1;  // [-] of passes proper
+  double hopeless = 0;   // [m/s] residual from which a guess led nowhere
 
   void keep();
   void restore();
@@ -38,7 +39,10 @@ constexpr double kHope = 0.1;
 constexpr double kMuchNearer = 0.1;   // [-] of the residual, that ends a pass before its own end
 constexpr double kInnerPart = 0.05;   // [-] of the residual, to which a pass is solved …
 constexpr double kInnerSpeed = 1e-8;  // [m/s] … but to this at least
-constexpr int kPatience = 15;         // passes without progress that end a solve
+// [-] R of the second attempt beside that of the first: what a softer pass leaves misleads the
+// shifts where the normal impulse nearly drives a point into the ground.
+constexpr double kSecondAttempt = 1e-2;
+constexpr int kPatience = 15;  // passes without progress that end a solve
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -94,7 +98,8 @@ SolveResidual ConvexNewton::improve(double residual, bool first) {
     scratch_->acceleration.restart();
     scratch_->acceleration.choose_shifts(problem);
   }
-  problem.set_softness(load > 0 ? std::clamp(residual / load, kHardestPass, kSoftestPass)
+  problem.set_softness(load > 0 ? std::clamp(scratch_->hardening * residual / load,
+                                             kHardestPass * scratch_->hardening, kSoftestPass)
                                 : kSoftestPass);
   const double tolerable =
       std::max(problem.rounding(), std::min(kInnerPart * residual, kInnerSpeed));
@@ -107,6 +112,7 @@ SolveResidual ConvexNewton::iterate() {
   scratch_->acceleration.load(problem.points.size());
   pass.load(problem);
   scratch_->hopeless = std::numeric_limits<double>::infinity();
+  scratch_->hardening = 1;
   SolveResidual now = problem.follow_trial(), least;
   int best_pass = 0, stilled_pass = 0, k = 0;
   for (;; ++k) {
@@ -125,6 +131,7 @@ SolveResidual ConvexNewton::iterate() {
       scratch_->restore();
       scratch_->acceleration.restart(true);
       scratch_->hopeless = std::numeric_limits<double>::infinity();
+      scratch_->hardening = kSecondAttempt;
       now = least;
       stilled_pass = k;
     }
