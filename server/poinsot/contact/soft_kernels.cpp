@@ -306,10 +306,11 @@ POINSOT_INLINE void push_count(SoftBlock& block, HotBody* bodies, const SoftRate
   apply_push(block, solve_soft_points<count>(block, velocity, target, rates), pair, bodies);
 }
 
-// (Rᵀ − 1) n for the rotation of a unit quaternion with vector part u.
-POINSOT_INLINE Vec3Lanes turned_back(const Vec3Lanes& u, Lanes w, const Vec3Lanes& n) {
+// (Rᵀ − 1) n for the rotation of a unit quaternion with vector part u; of a round surface to first
+// order.
+POINSOT_INLINE Vec3Lanes turned_back(const Vec3Lanes& u, Lanes w, const Vec3Lanes& n, Lanes bend) {
   const Vec3Lanes c = cross(u, n);
-  return (cross(u, c) - c * w) * all_lanes(2);
+  return (cross(u, c) * bend - c * w) * all_lanes(2);
 }
 
 template <int count>
@@ -320,7 +321,8 @@ POINSOT_INLINE void follow_gaps(SoftBlock& block, const HotBody* bodies) {
   gather(bodies, block.b, &HotBody::shift, shift_b, none);
   gather(bodies, block.a, &HotBody::turn, u_a, w_a);
   gather(bodies, block.b, &HotBody::turn, u_b, w_b);
-  const Vec3Lanes lean_a = turned_back(u_a, w_a, block.n), lean_b = turned_back(u_b, w_b, block.n);
+  const Vec3Lanes lean_a = turned_back(u_a, w_a, block.n, block.bend_a),
+                  lean_b = turned_back(u_b, w_b, block.n, block.bend_b);
   const Lanes moved =
       dot(block.n, shift_a - shift_b) + (dot(lean_a, block.arm_a) - dot(lean_b, block.arm_b));
   const Vec3Lanes lean = lean_a - lean_b;
@@ -370,6 +372,24 @@ POINSOT_INLINE Drag solve_friction(SoftBlock& block, const Vec3Lanes& drag) {
   return {d_1, d_2, d_n};
 }
 
+// Resistance to rolling: a couple in its circle, changed into what it does to the twist.
+template <int count>
+POINSOT_INLINE Vec3Lanes solve_rolling(SoftBlock& block, const Vec3Lanes& push,
+                                       const SoftRates& rates) {
+  Lanes load = {};
+  for (int i = 0; i < count; ++i) load += block.points[static_cast<std::size_t>(i)].impulse;
+  const Lanes radius = rates.rolling_arm * load;
+  const Lanes response = block.push_push.yy + block.push_push.zz;
+  const Lanes gain = response > 0.0 ? 1.0 / response : Lanes{};
+  const Lanes m_1 = block.roll_1 - gain * push.y, m_2 = block.roll_2 - gain * push.z;
+  const Lanes length = root(m_1 * m_1 + m_2 * m_2);
+  const Lanes scale = length > radius ? radius / length : all_lanes(1);
+  const Vec3Lanes change = {Lanes{}, m_1 * scale - block.roll_1, m_2 * scale - block.roll_2};
+  block.roll_1 += change.y;
+  block.roll_2 += change.z;
+  return change;
+}
+
 POINSOT_INLINE Lanes coupled(const Lanes* row, const Drag& drag) {
   return row[0] * drag.along_1 + row[1] * drag.along_2 + row[2] * drag.about_n;
 }
@@ -393,6 +413,11 @@ POINSOT_INLINE void relax_count(SoftBlock& block, HotBody* bodies, const SoftRat
   push.x += coupled(block.push_drag[0], drag);
   push.y += coupled(block.push_drag[1], drag);
   push.z += coupled(block.push_drag[2], drag);
+  Vec3Lanes roll = {};
+  if (rates.rolling_arm > 0) {
+    roll = solve_rolling<count>(block, push, rates);
+    push = push + block.push_push * roll;
+  }
 
   Lanes velocity[count], target[count];
   for (int i = 0; i < count; ++i) {
@@ -410,8 +435,9 @@ POINSOT_INLINE void relax_count(SoftBlock& block, HotBody* bodies, const SoftRat
   }
   block.residual = residual;
   apply(block, block.n * change.force + (block.t1 * drag.along_1 + block.t2 * drag.along_2),
-        block.n * drag.about_n + (block.t1 * change.about_1 + block.t2 * change.about_2), pair,
-        bodies);
+        block.n * drag.about_n +
+            (block.t1 * (change.about_1 + roll.y) + block.t2 * (change.about_2 + roll.z)),
+        pair, bodies);
 }
 
 // Points that were pushed and had approached leave as fast as their restitution says. The impulses
