@@ -134,6 +134,22 @@ TEST(SoftStep, FollowsTheParabolaWhereNothingTouches) {
   EXPECT_NEAR(work, 2 * kGravity * (kGravity / 2 - 3), 1e-11);
 }
 
+TEST(SoftStep, CountsTheWorkOfTorques) {
+  for (const Vec3& size : {Vec3(1, 1, 1), Vec3(1, 0.5, 0.2)}) {
+    std::vector<SoftBody> bodies = {box(Vec3::Zero(), size, 2)};
+    bodies[0].torque = Vec3(0, 0.3, 0);  // about a principal axis
+    SoftStep solver;
+    Team team(1);
+    double work = 0, unaccounted = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+      const SoftOutcome outcome = solver.advance(bodies, {}, {}, kFrame, {}, team);
+      work += outcome.force_work;
+      unaccounted += outcome.loss;
+    }
+    EXPECT_NEAR(unaccounted, 0, 1e-9 * work);
+  }
+}
+
 TEST(SoftStep, TumblesFreelyWithoutLosingEnergy) {
   std::vector<SoftBody> bodies = {box(Vec3::Zero(), Vec3(1, 0.5, 0.2), 2)};
   SoftBody& body = bodies[0];
