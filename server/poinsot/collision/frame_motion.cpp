@@ -206,6 +206,7 @@ void FrameMotion::update_pairs() {
 void FrameMotion::find_excited(double t_end, SearchWork& work) {
   IslandMotion& motion = motions_.front();
   const bool searches = state_.def.impact_search != ImpactSearchKind::none;
+  bool all_crowd = true;  // whatever is excited
   bool again = true;
   while (again) {  // until nobody else is woken
     again = false;
@@ -225,6 +226,8 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
         hot = record.meeting != Meeting::none && record.safe_until <= t_end;
       }
       if (!hot) continue;
+      all_crowd = all_crowd && crowd_.has(record.a) == state_.is_awake(record.a) &&
+                  crowd_.has(record.b) == state_.is_awake(record.b);
       for (const int body : {record.a, record.b}) {
         const auto k = static_cast<std::size_t>(body);
         if (state_.asleep[k] != 0 && searches) {
@@ -235,6 +238,7 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
       }
     }
   }
+  if (all_crowd) return;
   // What one impact among them may throw them to.
   const double h = t_end - state_.world().time;
   fastest_.assign(excited_.size(), -1);
