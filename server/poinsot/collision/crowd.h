@@ -1,10 +1,9 @@
-// The crowd: bodies whose contacts are stepped by soft_step (../contact/soft_step.h), the islands
-// of all of them at once.
+// The crowd: bodies whose contacts are stepped by soft_step (crowd_step.h), the islands of all of
+// them at once. This is who is in it, and what they may touch.
 //
-// An island joins the crowd for a frame if the scene asks for it, or if `auto` finds it accurate
-// enough there, or too large for anything else. Pairs of the crowd are not searched for impacts:
-// their points foresee them, and bodies that would move by more than half their size between two
-// looks at what is near are looked at more often, or, with `auto`, stay out of the crowd.
+// An island joins the crowd for a frame if the scene asks for it, or if `auto` finds it easy enough
+// for the accuracy that is asked for, or too large for anything else. Pairs of the crowd are not
+// searched for impacts: their points foresee them.
 
 #pragma once
 
@@ -12,17 +11,29 @@
 #include <vector>
 
 #include "poinsot/base/parallel.h"
-#include "poinsot/collision/collision_layer.h"
-#include "poinsot/collision/island.h"
-#include "poinsot/contact/soft_step.h"
+#include "poinsot/collision/crowd_step.h"
 
 namespace poinsot {
+
+// Records and bodies that a thread takes at a time.
+template <class Task>
+void run_chunks(Team& team, std::size_t count, const Task& task) {
+  constexpr std::size_t kTogether = 64;
+  team.run((count + kTogether - 1) / kTogether, [&](std::size_t chunk, int) {
+    const std::size_t end = std::min(count, (chunk + 1) * kTogether);
+    for (std::size_t k = chunk * kTogether; k < end; ++k) task(k);
+  });
+}
+
+// No point of body i, which turns at `omega` [rad/s], moves farther in h [s], contacts aside [m].
+double crowd_travel(const CollisionState& state, Eigen::Index i, const Vec3& omega, double h);
 
 class Crowd {
  public:
   explicit Crowd(const CollisionState& state);
 
-  // Whether a body was in the crowd in the last frame, or always is.
+  // Whether a body was in the crowd in the last frame, or is likely to be: its pairs are not
+  // searched before islands are parted.
   bool has(Eigen::Index i) const { return member_[static_cast<std::size_t>(i)] != 0; }
   void set_member(Eigen::Index i, bool member);
 
@@ -34,59 +45,37 @@ class Crowd {
   void find_idle(CollisionState& state, Team& team) const;
   // A box for a collider of such a body that is likely to last for some frames.
   Aabb roomy_box(const CollisionState& state, const Collider& collider, double h) const;
-  // Whether an island is stepped with the crowd in the frame that begins.
-  bool takes(const CollisionState& state, const Island& island, double duration) const;
 
-  struct Result {
-    Tally tally;
-    SoftOutcome outcome;       // sums, and the last residual
-    std::uint32_t bodies = 0;  // stepped
-  };
-  // Moves the bodies of these islands from the world's time to t_end.
-  Result advance(CollisionState& state, std::span<Island* const> islands, double t_end, Team& team);
+  // Whether bodies are in the crowd unless something speaks against it.
+  bool is_usual() const { return usual_; }
+  // What body i is in is stepped with the crowd in this frame, if it can be.
+  void force(Eigen::Index i) { forced_[static_cast<std::size_t>(i)] = frame_; }
+  void next_frame() { ++frame_; }
 
-  // The forces of a pair of the crowd in the last sub-step.
-  void add_forces(const CollisionState& state, const PairRecord& record,
-                  std::vector<ContactForce>& forces) const;
+  // Whether an island is stepped with the crowd in the frame that begins. `step`: the last one.
+  bool takes(const CollisionState& state, const Island& island, const CrowdStep& step,
+             double duration);
 
  private:
   bool look(const CollisionState& state, Eigen::Index i, double h);
   bool is_near(const CollisionState& state, const PairRecord& record) const;
-  int parts(const CollisionState& state, double duration);
-  void gather_bodies(const CollisionState& state, std::span<Island* const> islands, Team& team);
-  void measure(CollisionState& state, double h, Team& team);
-  void fill(CollisionState& state, Team& team);
-  void recall(CollisionState& state, Team& team);
-  int local(const CollisionState& state, int column);
-  void place_immovable(const CollisionState& state, int i, double h);
-  double travel(const CollisionState& state, Eigen::Index i, const Vec3& omega, double h) const;
-  void scatter(CollisionState& state, Result& result, Team& team);
+  bool may_step(const CollisionState& state, const Island& island) const;
+  bool is_easy(const CollisionState& state, const Island& island);
+  bool is_shallow(const CollisionState& state, const Island& island);
 
-  std::vector<std::uint8_t> member_;    // per body
+  bool usual_ = false;                // bodies are in the crowd unless something speaks against it
+  std::vector<std::uint8_t> member_;  // per body
   std::vector<std::uint8_t> may_step_;  // per body: nothing acts on it that soft_step does not know
   std::vector<std::uint8_t> fits_;      // per body
-  // What loops over pairs need of a collider, close together.
   enum class Kind : std::uint8_t { solid, plane, mesh };
-  std::vector<Kind> kind_;
-  std::vector<double> radius_;  // [m] about its origin
+  std::vector<Kind> kind_;  // per collider: close together
   bool has_mesh_ = false;
   std::vector<Aabb> near_;  // per collider of a body looked at
-  // Of the bodies that take part, where the step is.
-  std::vector<Pose> pose_;             // per collider
-  std::vector<double> travel_;         // [m] per body: no point of it moves farther in the step
-  std::vector<std::uint64_t> placed_;  // per body that nothing moves: the step it was placed in
-  std::uint64_t step_ = 0;
 
-  SoftStep solver_;
-  double last_h_ = 0;                  // [s] of a sub-step
-  double now_ = 0;                     // [s] where the step is
-  std::vector<Eigen::Index> columns_;  // bodies that move, in the order of the islands
-  std::vector<int> local_;             // per column; −1: none
-  std::vector<int> immovable_;         // columns among the bodies of the solver
-  std::vector<SoftBody> bodies_;
-  std::vector<int> records_;  // of the islands
-  std::vector<int> active_;   // records that have points
-  std::vector<SoftManifold> manifolds_;
+  std::vector<int> level_;  // per body: of a stack, while it is counted
+  std::uint64_t frame_ = 1;
+  std::vector<std::uint64_t> forced_;  // per body: the frame for which it is
+  std::vector<int> promoted_;          // per body: frames for which it is solved directly
 };
 
 }  // namespace poinsot

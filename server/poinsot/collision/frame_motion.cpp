@@ -22,6 +22,8 @@ constexpr double kThrown = 2;
 // Restarts widen the boxes of strays; from this one on they hold everything.
 constexpr int kLastNarrow = 6;
 constexpr double kEverywhere = 1e9;  // [m]
+// An island that strays more often than this joins the crowd, if it can be stepped so.
+constexpr int kMostAlone = 3;
 // No motion that is any needs more; what is left of a frame then ends all the same.
 constexpr int kMostRestarts = 16;
 
@@ -33,6 +35,7 @@ FrameMotion::FrameMotion(const Scene& scene)
       broad_phase_(state_.colliders),
       islands_(scene.bodies.size()),
       crowd_(state_),
+      crowd_step_(state_),
       sleep_(scene.bodies.size()),
       rules_(scene),
       bounded_(scene.bodies.size(), 0),
@@ -69,6 +72,7 @@ void FrameMotion::place_resting(Eigen::Index i) {
 void FrameMotion::advance_to(double t_end, CollisionReport& report,
                              std::vector<ImpactEvent>& impacts, CollisionTimes& times) {
   impacts.clear();
+  crowd_.next_frame();
   report.islands = report.restarts = report.searches = report.impacts = 0;
   report.search_poses = report.search_gaps = 0;
   report.contacts = 0;
@@ -284,12 +288,17 @@ void FrameMotion::run_islands(double t_end, CollisionReport& report, CollisionTi
   for (int attempt = 0;; ++attempt) {
     const std::span<Island> islands = islands_.all();
     for (IslandMotion& motion : motions_) motion.watches = attempt < kMostRestarts;
-    team_.run(islands.size(), [&](std::size_t k, int thread) {
+    const auto advance = [&](std::size_t k, int thread) {
       Island& island = islands[k];
       if (island.done || island.crowd) return;
       motions_[static_cast<std::size_t>(thread)].advance(state_, island, t_end, islands_.island_of);
       island.done = island.strays.empty();
-    });
+    };
+    if (attempt < kMostRestarts) {
+      team_.run(islands.size(), advance);
+    } else {  // they may look at one another: one after the other, whatever the team
+      for (std::size_t k = 0; k < islands.size(); ++k) advance(k, 0);
+    }
     if (std::all_of(islands.begin(), islands.end(),
                     [](const Island& i) { return i.done || i.crowd; }))
       break;
@@ -311,6 +320,9 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
   for (Island& island : islands_.all()) {
     if (island.done || island.crowd) continue;
     for (const Eigen::Index i : island.bodies) excited_[static_cast<std::size_t>(i)] = 1;
+    // An island that goes wherever it may is no island: the crowd takes it.
+    if (crowd_.is_usual() || attempt >= kMostAlone)
+      for (const Eigen::Index i : island.bodies) crowd_.force(i);
     const int own = islands_.island_of[static_cast<std::size_t>(island.bodies.front())];
     for (const Eigen::Index i : island.strays)
       (islands_.island_of[static_cast<std::size_t>(i)] == own ? left_ : strays_).push_back(i);
@@ -354,7 +366,9 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
       const PairRecord& record = state_.pairs[r];
       const Eigen::Index other = record.a == i ? record.b : record.a;
       const bool known = !state_.is_awake(other) || excited_[static_cast<std::size_t>(other)] != 0;
-      if (!known && touches_now(record)) strays_.push_back(other);
+      if (known || !touches_now(record)) continue;
+      excited_[static_cast<std::size_t>(other)] = 1;  // once is enough
+      strays_.push_back(other);
     }
   }
   update_pairs();
@@ -365,13 +379,12 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
 // Of the islands of a new partition: which are stepped with the crowd; the others can go back.
 void FrameMotion::choose_crowd(double t_end) {
   const double duration = t_end - state_.world().time;
-  if (state_.def.contact_solver != ContactSolverKind::soft_step)
-    for (std::size_t k = 0; k < excited_.size(); ++k)
-      if (islands_.island_of[k] < 0) crowd_.set_member(static_cast<Eigen::Index>(k), false);
+  for (std::size_t k = 0; k < excited_.size(); ++k)
+    if (islands_.island_of[k] < 0) crowd_.set_member(static_cast<Eigen::Index>(k), false);
   for (Island& island : islands_.all()) {
     if (!island.fresh) continue;
     island.fresh = false;
-    island.crowd = crowd_.takes(state_, island, duration);
+    island.crowd = crowd_.takes(state_, island, crowd_step_, duration);
     for (const Eigen::Index i : island.bodies) crowd_.set_member(i, island.crowd);
     if (island.crowd) {
       island.result.clear();
@@ -390,7 +403,7 @@ void FrameMotion::run_crowd(double t_end, CollisionReport& report, CollisionTime
     if (island.crowd) crowd_islands_.push_back(&island);
   if (crowd_islands_.empty()) return;
   const Stopwatch::WallLap lap(times.contact.wall_s);
-  crowd_result_ = crowd_.advance(state_, crowd_islands_, t_end, team_);
+  crowd_result_ = crowd_step_.advance(state_, crowd_islands_, t_end, team_);
   for (Island* island : crowd_islands_) island->done = true;
   report.contacts += crowd_result_.outcome.pushing;
   report.max_penetration = std::max(report.max_penetration, crowd_result_.outcome.max_penetration);
@@ -444,7 +457,7 @@ void FrameMotion::contact_forces(std::vector<ContactForce>& forces) const {
   for (const PairRecord& record : state_.pairs.records()) {
     if (!record.standing) continue;
     if (crowd_.has(record.a) || crowd_.has(record.b)) {
-      crowd_.add_forces(state_, record, forces);
+      crowd_step_.add_forces(state_, record, forces);
       continue;
     }
     const PairContact* contact = state_.pairs.find_contact(record);

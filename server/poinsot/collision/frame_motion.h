@@ -52,7 +52,8 @@ class FrameMotion {
   BroadPhase broad_phase_;
   Islands islands_;
   Crowd crowd_;
-  Crowd::Result crowd_result_;
+  CrowdStep crowd_step_;
+  CrowdStep::Result crowd_result_;
   std::vector<Island*> crowd_islands_;
   Sleep sleep_;
   PairRules rules_;
