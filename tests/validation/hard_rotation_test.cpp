@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "poinsot/math/rotation.h"
+#include "poinsot/simulation/diagnostics.h"
 #include "poinsot/simulation/simulation_layer.h"
 #include "support/closed_forms.h"
 #include "support/extended_reference.h"
