@@ -9,6 +9,8 @@
 
 #pragma once
 
+#include <cmath>
+
 #include "poinsot/math/types.h"
 
 namespace poinsot::test {
