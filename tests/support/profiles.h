@@ -2,19 +2,14 @@
 
 #pragma once
 
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
 #include "poinsot/scene/scene.h"
 
-namespace poinsot {
-
-// Stands in for those of the scene module.
-enum class Profile { accurate, fast };
-inline CollisionDef collision_defaults(Profile profile) {
-  CollisionDef def;
-  if (profile == Profile::fast) def.impact_search = ImpactSearchKind::none;
-  return def;
-}
-
-namespace test {
+namespace poinsot::test {
 
 inline constexpr Profile kProfiles[] = {Profile::accurate, Profile::fast};
 
@@ -23,5 +18,8 @@ inline Scene with_profile(Scene scene, Profile profile) {
   return scene;
 }
 
-}  // namespace test
-}  // namespace poinsot
+inline std::string profile_name(const testing::TestParamInfo<Profile>& info) {
+  return info.param == Profile::accurate ? "accurate" : "fast";
+}
+
+}  // namespace poinsot::test

@@ -108,26 +108,31 @@ struct SimulationDef {
 
 struct CollisionDef {
   ImpactSearchKind impact_search = ImpactSearchKind::conservative;
-  ContactSolverKind contact_solver = ContactSolverKind::sequential_impulses;
+  ContactSolverKind contact_solver = ContactSolverKind::automatic;
   double contact_step = 1.0 / 240;  // [s] longest sub-step of a frame
-  int iterations = 40;              // sweeps of the contact solver per sub-step
-  double contact_margin = 0.02;     // [-] gap below which a point is kept in the manifold, relative
-                                    // to the smaller body's size
-  double push_out_speed = 1.0;      // [m/s] upper bound of the removal of penetration
-  double contact_band = 1e-10;      // [-] gap below which a pair touches, relative likewise
-  int max_impacts = 32;             // located per frame and island; more are left to the sub-steps.
-                                    // A bouncing ball comes to rest in one frame with 24.
-  bool sleeping = true;             // islands in proven equilibrium cost nothing
+  double contact_tolerance = 1e-7;  // [-] error of positions at contacts that `auto` allows,
+                                    // relative to the smaller body's size
+  double contact_margin = 0.02;  // [-] gap below which a point is kept in the manifold, relative
+                                 // to the smaller body's size
+  double push_out_speed = 1.0;   // [m/s] upper bound of the removal of penetration
+  double contact_band = 1e-10;   // [-] gap below which a pair touches, relative likewise
+  int max_impacts = 32;          // located per frame and island; more are left to the sub-steps.
+                                 // A bouncing ball comes to rest in one frame with 24.
+  bool sleeping = true;          // islands in proven equilibrium cost nothing
   double sleep_acceleration = 1e-6;  // [m/s²] residual below which an equilibrium is one
   int threads = 1;                   // that islands are spread over; the bits do not depend on it
 
   // Not keys of the scene file: nothing in a scene needs them otherwise.
-  double allowed_penetration = 1e-5;  // [-] that is left alone, relative to the smaller body's size
+  double allowed_penetration = 1e-9;  // [-] that is left alone, relative to the smaller body's size
   double push_out_rate = 2;           // [1/s] at which a penetration decays; much faster would lift
                                       // one side of a stack before the solver has the other
   double touch_gap = 1e-3;            // [-] below it an arriving pair bounces, relative likewise
   double overlap = 1e-6;              // [-] more is refused at load, relative likewise
 };
+
+// The defaults of a profile: `accurate` are those above; `fast` allows contacts errors of a
+// thousandth of a body's size, so that most islands are stepped by soft_step.
+CollisionDef collision_defaults(Profile profile);
 
 struct PresentationDef {
   double frame_rate = 60;  // [Hz]

@@ -68,6 +68,9 @@ class SceneReader {
       faults_.place("world", *node);
       scene_.world = reader_.text(*node, "world").value_or(scene_.world);
     }
+    if (const YamlNode* node = fields.find("profile"))
+      if (const auto profile = reader_.named<Profile>(*node, "profile", kProfileNames, {}))
+        scene_.collision = collision_defaults(*profile);
     if (const YamlNode* node = fields.find("allow_overlap"))
       scene_.allow_overlap = reader_.boolean(*node, "allow_overlap").value_or(false);
   }
@@ -96,13 +99,12 @@ class SceneReader {
           reader_.named<ImpactSearchKind>(*item, "impact_search", kImpactSearchNames, {})
               .value_or(def.impact_search);
     if (const YamlNode* item = fields->find("contact_solver"))
-      def.contact_solver = reader_
-                               .named<ContactSolverKind>(*item, "contact_solver",
-                                                         kContactSolverNames, kContactSolversLater)
-                               .value_or(def.contact_solver);
+      def.contact_solver =
+          reader_.named<ContactSolverKind>(*item, "contact_solver", kContactSolverNames, {})
+              .value_or(def.contact_solver);
     if (const YamlNode* item = fields->find("sleeping"))
       def.sleeping = reader_.boolean(*item, "sleeping").value_or(def.sleeping);
-    read(*fields, "collision", "iterations", def.iterations);
+    read(*fields, "collision", "contact_tolerance", def.contact_tolerance);
     read(*fields, "collision", "max_impacts", def.max_impacts);
     read(*fields, "collision", "threads", def.threads);
     read(*fields, "collision", "contact_step", def.contact_step);

@@ -19,13 +19,12 @@ namespace scene_keys {
 
 using Words = std::string_view[];
 
-inline constexpr Words kSceneKeys = {"world",      "presentation",  "collision",
-                                     "simulation", "allow_overlap", "bodies",
-                                     "springs",    "wrenches",      "pairs"};
-inline constexpr Words kSceneLater = {"profile"};
+inline constexpr Words kSceneKeys = {"world",      "profile",       "presentation", "collision",
+                                     "simulation", "allow_overlap", "bodies",       "springs",
+                                     "wrenches",   "pairs"};
 inline constexpr Words kPresentationKeys = {"frame_rate"};
 inline constexpr Words kCollisionKeys = {"impact_search",      "contact_solver", "contact_step",
-                                         "iterations",         "contact_margin", "push_out_speed",
+                                         "contact_tolerance",  "contact_margin", "push_out_speed",
                                          "contact_band",       "max_impacts",    "sleeping",
                                          "sleep_acceleration", "threads"};
 inline constexpr Words kSimulationKeys = {"integrator", "step", "tolerance", "gravity"};
@@ -55,7 +54,7 @@ inline constexpr Words kWrenchKeys = {"body",  "force",       "torque", "frame",
 
 }  // namespace scene_keys
 
-inline constexpr KeyTable kSceneTable = {"scene", scene_keys::kSceneKeys, scene_keys::kSceneLater};
+inline constexpr KeyTable kSceneTable = {"scene", scene_keys::kSceneKeys, {}};
 inline constexpr KeyTable kPresentationTable = {"presentation", scene_keys::kPresentationKeys, {}};
 inline constexpr KeyTable kCollisionTable = {"collision", scene_keys::kCollisionKeys, {}};
 inline constexpr KeyTable kSimulationTable = {"simulation", scene_keys::kSimulationKeys, {}};
@@ -80,9 +79,5 @@ inline constexpr std::array<const KeyTable*, 12> kPlaces = {
     &kSceneTable, &kPresentationTable, &kCollisionTable, &kSimulationTable,
     &kBodyTable,  &kMaterialTable,     &kShapeTable,     &kInertiaTable,
     &kDragTable,  &kSpringTable,       &kWrenchTable,    &kPairKeyTable};
-
-// Contact solvers of the plan that strategies.h does not have yet.
-inline constexpr std::string_view kContactSolversLater[] = {"auto", "pairwise", "soft_step",
-                                                            "convex_newton"};
 
 }  // namespace poinsot

@@ -67,9 +67,19 @@ inline constexpr std::array<Named<ImpactSearchKind>, 4> kImpactSearchNames = {{
     {"none", ImpactSearchKind::none},
 }};
 
-enum class ContactSolverKind { sequential_impulses };
-inline constexpr std::array<Named<ContactSolverKind>, 1> kContactSolverNames = {{
-    {"sequential_impulses", ContactSolverKind::sequential_impulses},
+// How standing contacts are solved. `auto`: each island by the cheapest that is accurate enough.
+enum class ContactSolverKind { automatic, soft_step, convex_newton };
+inline constexpr std::array<Named<ContactSolverKind>, 3> kContactSolverNames = {{
+    {"auto", ContactSolverKind::automatic},
+    {"soft_step", ContactSolverKind::soft_step},
+    {"convex_newton", ContactSolverKind::convex_newton},
+}};
+
+// What a scene's defaults are made for.
+enum class Profile { accurate, fast };
+inline constexpr std::array<Named<Profile>, 2> kProfileNames = {{
+    {"accurate", Profile::accurate},
+    {"fast", Profile::fast},
 }};
 
 }  // namespace poinsot

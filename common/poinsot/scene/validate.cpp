@@ -26,7 +26,6 @@ constexpr double kMaxStepsPerFrame = 1e6;
 // bodies would visibly float.
 constexpr double kMinBand = 1e-13, kMaxBand = 1e-3;
 constexpr double kLeastMass = 1e-30, kMostMass = 1e30;  // [kg] squares and inverses stay finite
-constexpr int kMaxIterations = 1'000'000;
 constexpr int kMaxImpacts = 1'000'000;  // of a frame and island
 constexpr int kMaxThreads = 256;
 
@@ -181,8 +180,8 @@ class Validation {
   }
 
   void check_collision(const CollisionDef& c) {
-    require(c.iterations >= 1 && c.iterations <= kMaxIterations, "collision.iterations",
-            "iterations must be 1 to " + std::to_string(kMaxIterations), c.iterations);
+    require(c.contact_tolerance > 0 && c.contact_tolerance < 1, "collision.contact_tolerance",
+            "contact_tolerance must be > 0 and < 1", c.contact_tolerance);
     require(c.contact_margin >= 0 && c.contact_margin <= 1, "collision.contact_margin",
             "contact_margin must be 0 to 1", c.contact_margin);
     require(c.push_out_speed >= 0 && c.push_out_speed <= kMagnitude, "collision.push_out_speed",
@@ -319,6 +318,12 @@ class Validation {
 
 std::string shape_fault(const Shape& shape) {
   return std::visit(ShapeFault(), shape);
+}
+
+CollisionDef collision_defaults(Profile profile) {
+  CollisionDef def;
+  if (profile == Profile::fast) def.contact_tolerance = 1e-3;
+  return def;
 }
 
 std::vector<SceneFault> validate(const Scene& scene) {

@@ -75,6 +75,10 @@ bool CollisionLayer::is_asleep(Eigen::Index i) const {
   return std::as_const(frame_->motion).state().asleep[static_cast<std::size_t>(i)] != 0;
 }
 
+void CollisionLayer::contact_forces(std::vector<ContactForce>& forces) const {
+  std::as_const(*frame_).motion.contact_forces(forces);
+}
+
 std::uint32_t CollisionLayer::course_stamp(Eigen::Index i) const {
   return std::as_const(frame_->motion).state().stamp[static_cast<std::size_t>(i)];
 }

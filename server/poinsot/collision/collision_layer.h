@@ -33,6 +33,14 @@ struct CollisionReport {
   std::uint32_t asleep = 0;  // bodies
 };
 
+// What one body exerts on another at a point, as last solved. Sleeping pairs keep theirs.
+struct ContactForce {
+  int a, b;     // bodies, in scene order
+  Vec3 point;   // [m] in W
+  Vec3 normal;  // unit, in W, from b to a
+  Vec3 force;   // [N] on a, in W; friction of a pair of the crowd is in its first point
+};
+
 struct EnergyBalance {
   double energy;  // [J] kinetic and potential
   double error;   // [-] relative, since the start
@@ -69,6 +77,8 @@ class CollisionLayer {
   const CollisionReport& report() const { return report_; }
   // Located in the last frame, island by island and in order of time there.
   std::span<const ImpactEvent> impacts() const { return impacts_; }
+  // Of all points that push, in the order of the pairs; replaces `forces`.
+  void contact_forces(std::vector<ContactForce>& forces) const;
   bool is_asleep(Eigen::Index i) const;
   // Another one whenever the body's course changed, falling asleep included.
   std::uint32_t course_stamp(Eigen::Index i) const;

@@ -35,10 +35,11 @@ struct CollisionState {
 
   CollisionDef def;
   SimulationLayer simulation;
-  std::vector<Material> materials;  // per body
-  std::vector<Collider> colliders;  // in body order
-  std::vector<int> first_collider;  // per body, and the end
-  std::vector<double> arm;          // [m] per body: no point of its shapes is farther from c
+  std::vector<Material> materials;        // per body
+  std::vector<Collider> colliders;        // in body order
+  std::vector<int> first_collider;        // per body, and the end
+  std::vector<double> arm;                // [m] per body: no point of its shapes is farther from c
+  std::vector<std::uint8_t> has_corners;  // per body: some shape of it
   PairStore pairs;
 
   // Per body.

@@ -13,14 +13,15 @@ constexpr double kRestingSteps = 2.0;
 
 }  // namespace
 
-ContactStep::ContactStep(const CollisionDef& def) : def_(def) {
-  solver_.sweeps = def.iterations;
-}
+ContactStep::ContactStep(const CollisionDef& def) : def_(def) {}
 
-void ContactStep::begin(const CollisionState& state, double h, bool foresees) {
+void ContactStep::begin(const CollisionState& state, double h, double usual, bool foresees) {
   for (const Eigen::Index column : columns_) local_of_[static_cast<std::size_t>(column)] = -1;
   local_of_.resize(static_cast<std::size_t>(state.world().size()), -1);
   h_ = h;
+  usual_ = std::min(usual, h);
+  slip_ = {};
+  residual_ = {};
   foresees_ = foresees;
   awaited_.clear();
   columns_.clear();

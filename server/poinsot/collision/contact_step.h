@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "poinsot/collision/collision_state.h"
-#include "poinsot/contact/sequential_impulses.h"
+#include "poinsot/contact/convex_newton.h"
 
 namespace poinsot {
 
@@ -26,6 +26,7 @@ class ContactStep {
   struct Outcome {
     std::uint32_t pushing = 0;   // points with an impulse
     double max_penetration = 0;  // [m] after push-out
+    SolveResidual residual;      // of the forces
   };
 
   explicit ContactStep(const CollisionDef& def);
@@ -37,8 +38,12 @@ class ContactStep {
     PairPoint point;
   };
 
-  // Of the pairs that follow. If impacts are not foreseen, points on their way in are awaited.
-  void begin(const CollisionState& state, double h, bool foresees);
+  // Of the pairs that follow. If impacts are not foreseen, points on their way in are awaited, and
+  // the sub-step is made shorter: to `usual` unless everything rests, further where that keeps the
+  // error of positions below the scene's tolerance, and to when a sliding pair comes to rest.
+  void begin(const CollisionState& state, double h, double usual, bool foresees);
+  // [s] of the sub-step that was solved.
+  double duration() const { return h_; }
   void add(CollisionState& state, int record);
   std::size_t points() const { return contacts_.size(); }
   std::span<const Awaited> awaited() const { return awaited_; }
@@ -83,19 +88,34 @@ class ContactStep {
   bool choose_targets(CollisionState& state);
   void foresee_impacts(CollisionState& state, Books& books);
   void resolve(CollisionState& state);
+  SolveResidual find_forces(double h);
+  void act(CollisionState& state);
+  double shorter(const CollisionState& state, double h);
+  double while_turning(const CollisionState& state, double h,
+                       std::span<const ContactBody> bodies) const;
+  double end_of_slip(double h);
+  double inverse_mass(const Contact& contact, const Vec3& point, const Vec3& direction) const;
+  void scale_impulses(double by);
+  void set_duration(CollisionState& state, double h);
   void remember(CollisionState& state);
   void find_movers(const CollisionState& state);
   PairPoint& point(CollisionState& state, std::size_t i);
 
   CollisionDef def_;
-  SequentialImpulses solver_;
-  double h_ = 0;
+  ConvexNewton solver_;
+  double h_ = 0, usual_ = 0;
   bool foresees_ = true;
   std::vector<Awaited> awaited_;
   std::vector<int> local_of_;          // per column; −1: none
   std::vector<Eigen::Index> columns_;  // per local body
   std::vector<double> travel_, room_;  // [m] per local body: foreseen, and more that does no harm
   std::vector<ContactBody> bodies_, before_;
+  std::vector<Velocity> acceleration_;  // per local body: of all that acts but contacts
+  struct Slip {                         // of the pair that comes to rest first, at the last try
+    int record = -1;
+    double inv_h = 0, excess = 0;  // [1/s], [N] of friction over what its cone allows
+  } slip_;
+  SolveResidual residual_;
   std::vector<int> records_;
   std::vector<std::size_t> first_point_;  // per record, and the end
   std::vector<Point> points_;

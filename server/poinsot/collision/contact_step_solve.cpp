@@ -13,6 +13,13 @@ constexpr double kRestingSteps = 2.0;
 constexpr double kImpactSteps = 0.25;
 // Planes of contact hold while the bodies turn their surfaces by less than this of the size.
 constexpr double kTurned = 0.15;
+// No less than this of the usual sub-step, however fast bodies turn where they touch.
+constexpr double kLeastTurn = 1.0 / 64;
+// Slower slips are at rest [m/s]; and nothing shorter than this of a sub-step is stopped for.
+constexpr double kNoSlip = 1e-10;
+constexpr double kLeastSlip = 1e-6;
+// A pair that comes to rest at the end of a sub-step has full friction to this, relative.
+constexpr double kFullSlip = 1e-7;
 // A point is inside its cone by this much, relative: below it an equilibrium is not proven.
 constexpr double kInsideCone = 1e-3;
 
@@ -22,6 +29,14 @@ double relative_speed(const Contact& contact, std::span<const ContactBody> bodie
   const Vec3 at_a = a.v + a.omega.cross(contact.point - a.c);
   const Vec3 at_b = b.v + b.omega.cross(contact.point - b.c);
   return contact.normal.dot(at_a - at_b);
+}
+
+Vec3 slip_of(const Contact& contact, std::span<const ContactBody> bodies) {
+  const ContactBody& a = bodies[static_cast<std::size_t>(contact.a)];
+  const ContactBody& b = bodies[static_cast<std::size_t>(contact.b)];
+  const Vec3 v =
+      (a.v + a.omega.cross(contact.point - a.c)) - (b.v + b.omega.cross(contact.point - b.c));
+  return v - contact.normal.dot(v) * contact.normal;
 }
 
 Vec3 impulse_of(const Contact& contact) {
@@ -82,6 +97,7 @@ ContactStep::Outcome ContactStep::solve(CollisionState& state, Books& books) {
   }
   find_movers(state);
   Outcome outcome;
+  outcome.residual = residual_;
   for (const Contact& contact : contacts_) {
     outcome.pushing += contact.normal_impulse > 0 ? 1 : 0;
     outcome.max_penetration = std::max(outcome.max_penetration, -contact.gap);
@@ -90,7 +106,6 @@ ContactStep::Outcome ContactStep::solve(CollisionState& state, Books& books) {
 }
 
 bool ContactStep::proves_rest(CollisionState& state) {
-  constexpr double kVisits = 20000, kMostSweeps = 1000;  // of points, and of all points
   const World& world = state.world();
   const double still = def_.sleep_acceleration * h_;
   if (contacts_.empty()) return false;
@@ -112,14 +127,7 @@ bool ContactStep::proves_rest(CollisionState& state) {
   target_.assign(contacts_.size(), 0);
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     target_[i] = -std::max(contacts_[i].gap, 0.0) / h_;
-  const int sweeps = solver_.sweeps;
-  const double settled_speed = solver_.settled_speed;
-  solver_.sweeps = static_cast<int>(
-      std::clamp(kVisits / static_cast<double>(contacts_.size()), 10.0, kMostSweeps));
-  solver_.settled_speed = 0.01 * still;
-  solver_.solve(bodies_, contacts_, target_);
-  solver_.sweeps = sweeps;
-  solver_.settled_speed = settled_speed;
+  if (!solver_.solve(bodies_, contacts_, target_).converged) return false;
   remember(state);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const double arm = state.arm[static_cast<std::size_t>(columns_[k])];
@@ -220,24 +228,59 @@ void ContactStep::foresee_impacts(CollisionState& state, Books& books) {
   }
 }
 
+// The impulses of a sub-step, and how long it is.
 void ContactStep::resolve(CollisionState& state) {
+  constexpr int kTries = 8;
   const World& world = state.world();
-  const std::span<Wrench> wrenches = state.simulation.contact_wrenches();
   gather(world);
+  before_ = bodies_;
+  acceleration_.resize(columns_.size());
   for (std::size_t k = 0; k < columns_.size(); ++k) {
-    const Eigen::Index i = columns_[k];
-    const double arm = state.arm[static_cast<std::size_t>(i)];
-    ContactBody& body = bodies_[k];
-    if (world.moves(i)) {
-      const Wrench w = acting_wrench(world, i);
-      fastest_[k] = body.v.norm() + arm * body.omega.norm();
-      body.v += (h_ * body.inv_mass) * w.force;
-      body.omega += h_ * (body.inv_J_W * w.torque);
-    }
+    acceleration_[k] = Velocity{};
+    if (!world.moves(columns_[k])) continue;
+    const Wrench w = acting_wrench(world, columns_[k]);
+    acceleration_[k] = {bodies_[k].inv_mass * w.force, bodies_[k].inv_J_W * w.torque};
+  }
+  double h = foresees_ ? h_ : while_turning(state, h_, before_);
+  scale_impulses(h / h_);
+  residual_ = find_forces(h);
+  for (int attempt = 0; attempt < kTries && !foresees_; ++attempt) {
+    const double next = shorter(state, h);
+    if (next == h) break;
+    scale_impulses(next / h);
+    h = next;
+    residual_ = find_forces(h);
+  }
+  set_duration(state, h);
+  act(state);
+}
+
+void ContactStep::scale_impulses(double by) {
+  for (Contact& contact : contacts_) {
+    contact.normal_impulse *= by;
+    contact.friction_impulse *= by;
+  }
+}
+
+SolveResidual ContactStep::find_forces(double h) {
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    bodies_[k] = before_[k];
+    bodies_[k].v += h * acceleration_[k].linear;
+    bodies_[k].omega += h * acceleration_[k].angular;
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    target_[i] = -std::max(contacts_[i].gap, 0.0) / h_;
-  solver_.solve(bodies_, contacts_, target_);
+    target_[i] = -std::max(contacts_[i].gap, 0.0) / h;
+  return solver_.solve(bodies_, contacts_, target_);
+}
+
+void ContactStep::set_duration(CollisionState& state, double h) {
+  h_ = h;
+  for (const int r : records_) state.pairs.contact(state.pairs[r]).last_h = h;
+}
+
+void ContactStep::act(CollisionState& state) {
+  const World& world = state.world();
+  const std::span<Wrench> wrenches = state.simulation.contact_wrenches();
   for (const Contact& contact : contacts_) {
     const Vec3 force = impulse_of(contact) / h_;
     for (const auto& [body, sign] : {std::pair{contact.a, 1.0}, {contact.b, -1.0}}) {
@@ -249,9 +292,100 @@ void ContactStep::resolve(CollisionState& state) {
     }
   }
   for (std::size_t k = 0; k < columns_.size(); ++k) {
+    if (!world.moves(columns_[k])) continue;
     const double arm = state.arm[static_cast<std::size_t>(columns_[k])];
-    fastest_[k] = h_ * std::max(fastest_[k], bodies_[k].v.norm() + arm * bodies_[k].omega.norm());
+    const auto speed = [&](const ContactBody& b) { return b.v.norm() + arm * b.omega.norm(); };
+    fastest_[k] = h_ * std::max(speed(before_[k]), speed(bodies_[k]));
   }
+}
+
+// A sub-step shorter than h that is to be tried instead; h if it is good.
+double ContactStep::shorter(const CollisionState& state, double h) {
+  if (h > usual_) {  // only rest is stepped longer than usual
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const double arm = state.arm[static_cast<std::size_t>(columns_[k])];
+      const double travel = h * (bodies_[k].v.norm() + arm * bodies_[k].omega.norm());
+      if (state.is_awake(columns_[k]) && !(travel <= def_.contact_tolerance * arm)) return usual_;
+    }
+  }
+  constexpr double kMuchTooLong = 0.5;  // of h: less is left to the next sub-step
+  const double turning = while_turning(state, h, bodies_);
+  if (turning < kMuchTooLong * h) return turning;
+  return end_of_slip(h);
+}
+
+// While bodies with corners turn about where they touch, these leave the planes of contact by the
+// square of the angle: how long, at most h, until that exceeds the tolerance.
+double ContactStep::while_turning(const CollisionState& state, double h,
+                                  std::span<const ContactBody> bodies) const {
+  double longest = h;
+  for (const Contact& contact : contacts_) {
+    if (!(contact.normal_impulse > 0)) continue;
+    for (const int body : {contact.a, contact.b}) {
+      const auto k = static_cast<std::size_t>(body);
+      if (!state.has_corners[static_cast<std::size_t>(columns_[k])]) continue;
+      const Vec3 omega = bodies[k].omega - contact.normal.dot(bodies[k].omega) * contact.normal;
+      const double arm = (contact.point - bodies[k].c).norm();
+      const double allowed = def_.contact_tolerance * arm;
+      const double error = 0.5 * omega.squaredNorm() * h * h * arm;
+      if (error > allowed) longest = std::min(longest, h * std::sqrt(allowed / error));
+    }
+  }
+  return std::max(longest, std::min(h, kLeastTurn * usual_));
+}
+
+// When the first sliding pair comes to rest, if that is within h: there its friction stops being
+// that of sliding. While it slides the force it would take to stop it within h is linear in 1/h.
+double ContactStep::end_of_slip(double h) {
+  double end = h;
+  Slip first;
+  for (std::size_t r = 0; r < records_.size(); ++r) {
+    Vec3 slip = Vec3::Zero(), slip_after = Vec3::Zero(), friction = Vec3::Zero(),
+         point = Vec3::Zero();
+    double limit = 0, count = 0;
+    for (std::size_t i = first_point_[r]; i < first_point_[r + 1]; ++i) {
+      const Contact& contact = contacts_[i];
+      if (!(contact.normal_impulse > 0)) continue;
+      slip += slip_of(contact, before_);
+      slip_after += slip_of(contact, bodies_);
+      friction += contact.friction_impulse / h;
+      limit += contact.friction * contact.normal_impulse / h;
+      point += contact.point;
+      ++count;
+    }
+    if (count == 0 || limit <= 0) continue;
+    const double speed = slip.norm() / count;
+    if (speed <= kNoSlip || slip_after.norm() / count > kNoSlip) continue;
+    const double excess = -friction.dot(slip) / slip.norm() - limit;
+    if (excess >= -kFullSlip * limit) continue;  // it ends here
+    const Slip now{static_cast<int>(r), 1 / h, excess};
+    double inv_end;
+    if (slip_.record == now.record && slip_.inv_h != now.inv_h) {  // secant
+      inv_end = now.inv_h - excess * (now.inv_h - slip_.inv_h) / (excess - slip_.excess);
+    } else {
+      const Contact& contact = contacts_[first_point_[r]];
+      inv_end =
+          now.inv_h - excess * inverse_mass(contact, point / count, slip.normalized()) / speed;
+    }
+    const double at = 1 / inv_end;
+    if (!(at > kLeastSlip * usual_ && at < end)) continue;
+    end = at;
+    first = now;
+  }
+  slip_ = first;
+  return end;
+}
+
+// Of the relative velocity of a pair's points under impulses along `direction` [1/kg].
+double ContactStep::inverse_mass(const Contact& contact, const Vec3& point,
+                                 const Vec3& direction) const {
+  double sum = 0;
+  for (const int body : {contact.a, contact.b}) {
+    const ContactBody& b = bodies_[static_cast<std::size_t>(body)];
+    const Vec3 moment = (point - b.c).cross(direction);
+    sum += b.inv_mass + moment.dot(b.inv_J_W * moment);
+  }
+  return sum;
 }
 
 double ContactStep::sound_part(const CollisionState& state) const {

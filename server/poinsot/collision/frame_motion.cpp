@@ -32,6 +32,7 @@ FrameMotion::FrameMotion(const Scene& scene)
       team_(std::max(1, scene.collision.threads)),
       broad_phase_(state_.colliders),
       islands_(scene.bodies.size()),
+      crowd_(state_),
       sleep_(scene.bodies.size()),
       rules_(scene),
       bounded_(scene.bodies.size(), 0),
@@ -91,8 +92,10 @@ void FrameMotion::advance_to(double t_end, CollisionReport& report,
     update_pairs();
     find_excited(t_end, work);
     islands_.partition(state_, excited_, true);
+    choose_crowd(t_end);
   }
   run_islands(t_end, report, times);
+  run_crowd(t_end, report, times);
   {
     const Stopwatch::WallLap lap(times.simulation.wall_s);
     fly_the_rest(t_end, tally);
@@ -132,6 +135,17 @@ void FrameMotion::set_bounds(double t_end) {
     const auto k = static_cast<std::size_t>(i);
     if (!state_.is_awake(i) && !world.is_kinematic(i)) continue;
     if (state_.arm[k] == 0 && state_.colliders_of(i).empty()) continue;
+    if (crowd_.has(i)) {
+      const double h = t_end - world.time;
+      if (!crowd_.look(state_, i, h)) {
+        for (const Collider& collider : state_.colliders_of(i))
+          place_box(collider, crowd_.roomy_box(state_, collider, h));
+        boxes_changed_ = true;
+      }
+      bounded_[k] = state_.stamp[k];
+      state_.bounds_until[k] = t_end;
+      continue;
+    }
     if (bounded_[k] == state_.stamp[k] && state_.bounds_until[k] >= t_end) continue;
     bool inside = bounded_[k] != state_.stamp[k];  // boxes that were made with room may do
     for (const Collider& collider : state_.colliders_of(i)) {
@@ -152,15 +166,18 @@ void FrameMotion::set_bounds(double t_end) {
   }
 }
 
+void FrameMotion::place_box(const Collider& collider, const Aabb& box) {
+  const auto c = static_cast<int>(&collider - state_.colliders.data());
+  state_.bound[static_cast<std::size_t>(c)] = box;
+  broad_phase_.set(c, box);
+  broad_phase_.set_moves(c, true);
+}
+
 // `more` [m]: beside what the body reaches by itself.
 void FrameMotion::set_bound(Eigen::Index i, double until, double more) {
   const auto k = static_cast<std::size_t>(i);
-  for (const Collider& collider : state_.colliders_of(i)) {
-    const auto c = static_cast<std::size_t>(&collider - state_.colliders.data());
-    state_.bound[c] = reach_box(state_, collider, state_.world().time, until).grown(more);
-    broad_phase_.set(static_cast<int>(c), state_.bound[c]);
-    broad_phase_.set_moves(static_cast<int>(c), true);
-  }
+  for (const Collider& collider : state_.colliders_of(i))
+    place_box(collider, reach_box(state_, collider, state_.world().time, until).grown(more));
   bounded_[k] = state_.stamp[k];
   state_.bounds_until[k] = until;
   boxes_changed_ = true;
@@ -197,7 +214,10 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
       const bool carried =
           state_.world().is_kinematic(record.a) || state_.world().is_kinematic(record.b);
       if (!awake_a && !awake_b && !carried) continue;
-      bool hot = record.standing || !searches;
+      const bool crowd = crowd_.has(record.a) || crowd_.has(record.b);
+      record.idle = crowd && !crowd_.is_near(state_, record);
+      if (record.idle) continue;
+      bool hot = record.standing || !searches || crowd;
       if (!hot) {
         const double lasting = std::min(state_.bounds_until[static_cast<std::size_t>(record.a)],
                                         state_.bounds_until[static_cast<std::size_t>(record.b)]);
@@ -224,13 +244,14 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
   };
   for (const PairRecord& record : state_.pairs.records()) {
     const auto a = static_cast<std::size_t>(record.a), b = static_cast<std::size_t>(record.b);
-    if (excited_[a] == 0 && excited_[b] == 0) continue;
+    if (record.idle || (excited_[a] == 0 && excited_[b] == 0)) continue;
+    if (crowd_.has(record.a) && crowd_.has(record.b)) continue;
     const double speed = fastest(a) + fastest(b);
     for (const std::size_t k : {a, b})
       if (excited_[k] != 0) thrown_[k] = std::max(thrown_[k], speed);
   }
   for (std::size_t k = 0; k < excited_.size(); ++k)
-    if (excited_[k] != 0) {
+    if (excited_[k] != 0 && !crowd_.has(static_cast<Eigen::Index>(k))) {
       excite(static_cast<Eigen::Index>(k), t_end, kThrown * thrown_[k]);
       thrown_[k] = 0;
     }
@@ -260,11 +281,13 @@ void FrameMotion::run_islands(double t_end, CollisionReport& report, CollisionTi
     for (IslandMotion& motion : motions_) motion.watches = attempt < kMostRestarts;
     team_.run(islands.size(), [&](std::size_t k, int thread) {
       Island& island = islands[k];
-      if (island.done) return;
+      if (island.done || island.crowd) return;
       motions_[static_cast<std::size_t>(thread)].advance(state_, island, t_end, islands_.island_of);
       island.done = island.strays.empty();
     });
-    if (std::all_of(islands.begin(), islands.end(), [](const Island& i) { return i.done; })) break;
+    if (std::all_of(islands.begin(), islands.end(),
+                    [](const Island& i) { return i.done || i.crowd; }))
+      break;
     ++report.restarts;
     gather_strays(t_end, attempt);
   }
@@ -281,7 +304,7 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
   strays_.clear();
   left_.clear();
   for (Island& island : islands_.all()) {
-    if (island.done) continue;
+    if (island.done || island.crowd) continue;
     for (const Eigen::Index i : island.bodies) excited_[static_cast<std::size_t>(i)] = 1;
     const int own = islands_.island_of[static_cast<std::size_t>(island.bodies.front())];
     for (const Eigen::Index i : island.strays)
@@ -331,6 +354,43 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
   }
   update_pairs();
   islands_.partition(state_, excited_, false);
+  choose_crowd(t_end);
+}
+
+// Of the islands of a new partition: which are stepped with the crowd; the others can go back.
+void FrameMotion::choose_crowd(double t_end) {
+  const double duration = t_end - state_.world().time;
+  if (state_.def.contact_solver != ContactSolverKind::soft_step)
+    for (std::size_t k = 0; k < excited_.size(); ++k)
+      if (islands_.island_of[k] < 0) crowd_.set_member(static_cast<Eigen::Index>(k), false);
+  for (Island& island : islands_.all()) {
+    if (!island.fresh) continue;
+    island.fresh = false;
+    island.crowd = crowd_.takes(state_, island, duration);
+    for (const Eigen::Index i : island.bodies) crowd_.set_member(i, island.crowd);
+    if (island.crowd) {
+      island.result.clear();
+      island.strays.clear();
+      continue;
+    }
+    for (const int r : island.records) state_.pairs.make_contact(state_.pairs[r]);
+    island.save(state_);
+  }
+}
+
+void FrameMotion::run_crowd(double t_end, CollisionReport& report, CollisionTimes& times) {
+  crowd_islands_.clear();
+  crowd_result_ = {};
+  for (Island& island : islands_.all())
+    if (island.crowd) crowd_islands_.push_back(&island);
+  if (crowd_islands_.empty()) return;
+  const Stopwatch::WallLap lap(times.contact.wall_s);
+  crowd_result_ = crowd_.advance(state_, crowd_islands_, t_end, team_);
+  for (Island* island : crowd_islands_) island->done = true;
+  report.contacts += crowd_result_.outcome.pushing;
+  report.max_penetration = std::max(report.max_penetration, crowd_result_.outcome.max_penetration);
+  report.impact_loss += crowd_result_.outcome.loss;
+  report.push_out_energy += crowd_result_.outcome.push_out_energy;
 }
 
 void FrameMotion::place_frozen() {
@@ -346,8 +406,11 @@ void FrameMotion::put_to_sleep() {
   sleep_.next_frame();
   const std::span<Island> islands = islands_.all();
   tired_.assign(islands.size(), 0);
-  for (std::size_t k = 0; k < islands.size(); ++k)
+  for (std::size_t k = 0; k < islands.size(); ++k) {
     tired_[k] = sleep_.may_sleep(state_, islands[k]) ? 1 : 0;
+    if (tired_[k] != 0 && islands[k].crowd)
+      for (const int r : islands[k].records) state_.pairs.make_contact(state_.pairs[r]);
+  }
   team_.run(islands.size(), [&](std::size_t k, int thread) {
     if (tired_[k] != 0)
       tired_[k] =
@@ -369,6 +432,23 @@ bool FrameMotion::touches_now(const PairRecord& record) const {
   const double touch = state_.touch(record);
   if ((pose_a.c - pose_b.c).norm() > a.bounding_radius + b.bounding_radius + touch) return false;
   return find_gap(a, pose_a, b, pose_b).value <= touch;
+}
+
+void FrameMotion::contact_forces(std::vector<ContactForce>& forces) const {
+  forces.clear();
+  for (const PairRecord& record : state_.pairs.records()) {
+    if (!record.standing) continue;
+    if (crowd_.has(record.a) || crowd_.has(record.b)) {
+      crowd_.add_forces(state_, record, forces);
+      continue;
+    }
+    const PairContact* contact = state_.pairs.find_contact(record);
+    if (contact == nullptr || !(contact->last_h > 0)) continue;
+    for (const PairPoint& p : contact->points)
+      if (p.normal_impulse > 0)
+        forces.push_back({record.a, record.b, p.position, p.normal,
+                          (p.normal_impulse * p.normal + p.friction_impulse) / contact->last_h});
+  }
 }
 
 void FrameMotion::fly_the_rest(double t_end, Tally& tally) {
@@ -401,6 +481,7 @@ void FrameMotion::fly_the_rest(double t_end, Tally& tally) {
 void FrameMotion::close(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
                         const Tally& tally) {
   Tally all = tally;
+  all.add_apart(crowd_result_.tally);
   report.islands = static_cast<std::uint32_t>(islands_.all().size());
   for (Island& island : islands_.all()) {
     const Island::Result& result = island.result;

@@ -4,6 +4,7 @@
 
 #include "poinsot/base/parallel.h"
 #include "poinsot/collision/collision_layer.h"
+#include "poinsot/collision/crowd.h"
 #include "poinsot/collision/island_motion.h"
 #include "poinsot/collision/islands.h"
 #include "poinsot/collision/sleep.h"
@@ -18,6 +19,8 @@ class FrameMotion {
   void advance_to(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
                   CollisionTimes& times);
 
+  void contact_forces(std::vector<ContactForce>& forces) const;
+
   void touch() { touched_ = true; }
   CollisionState& state() { return state_; }
   const CollisionState& state() const { return state_; }
@@ -27,12 +30,15 @@ class FrameMotion {
   void settle_courses();
   void set_bounds(double t_end);
   void set_bound(Eigen::Index i, double until, double more);
+  void place_box(const Collider& collider, const Aabb& box);
   void update_pairs();
   void find_excited(double t_end, SearchWork& work);
   void excite(Eigen::Index i, double t_end, double speed);
   void run_islands(double t_end, CollisionReport& report, CollisionTimes& times);
   void gather_strays(double t_end, int attempt);
   void place_frozen();
+  void choose_crowd(double t_end);
+  void run_crowd(double t_end, CollisionReport& report, CollisionTimes& times);
   void put_to_sleep();
   bool touches_now(const PairRecord& record) const;
   void fly_the_rest(double t_end, Tally& tally);
@@ -45,6 +51,9 @@ class FrameMotion {
   std::vector<IslandMotion> motions_;  // per thread
   BroadPhase broad_phase_;
   Islands islands_;
+  Crowd crowd_;
+  Crowd::Result crowd_result_;
+  std::vector<Island*> crowd_islands_;
   Sleep sleep_;
   PairRules rules_;
   std::vector<std::uint32_t> bounded_;  // stamp of the course that the boxes are of, per body

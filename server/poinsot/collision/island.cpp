@@ -46,6 +46,7 @@ void Island::save(const CollisionState& state) {
 }
 
 void Island::restore(CollisionState& state) const {
+  if (bodies_before.size() != bodies.size()) return;  // it was never advanced
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     state.simulation.restore(bodies[k], bodies_before[k]);
     state.body_time[static_cast<std::size_t>(bodies[k])] = times_before[k];

@@ -38,7 +38,9 @@ struct Island {
   // To go back to: as it was when the frame began.
   std::vector<SimulationLayer::Backup> bodies_before;
   std::vector<double> times_before;
-  bool done = false;  // it reached the end of the frame
+  bool done = false;   // it reached the end of the frame
+  bool fresh = false;  // it was not in the partition before
+  bool crowd = false;  // stepped with the crowd
   std::vector<PairRecord> records_before;
   std::vector<PairContact> contacts_before;  // of records with a contact
 

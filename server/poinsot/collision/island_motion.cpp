@@ -7,6 +7,7 @@
 #include "poinsot/collision/mesh_pairs.h"
 #include "poinsot/collision/mesh_surface.h"
 #include "poinsot/collision/point_arrival.h"
+#include "poinsot/collision/proximity.h"
 #include "poinsot/collision/reach.h"
 
 namespace poinsot {
@@ -245,11 +246,24 @@ bool IslandMotion::is_slow(Frame& frame, const PairRecord& record, double t, dou
                                 : speed < kRestingSteps * fall;
 }
 
+// Whether nothing that touches moves noticeably before the frame ends, unless a force makes it.
+bool IslandMotion::rests(const Frame& frame) const {
+  const CollisionState& state = frame.state;
+  const World& world = state.world();
+  const double h = frame.t_end - world.time;
+  return std::all_of(frame.island.bodies.begin(), frame.island.bodies.end(), [&](Eigen::Index i) {
+    const double arm = state.arm[static_cast<std::size_t>(i)];
+    const double speed = linear_velocity(world, i).norm() + arm * angular_velocity(world, i).norm();
+    return h * speed <= state.def.contact_tolerance * arm;
+  });
+}
+
 double IslandMotion::step_standing(Frame& frame, double t) {
   CollisionState& state = frame.state;
   const int steps = step_count(frame.t_end - t, state.def.contact_step);
-  const double h = (frame.t_end - t) / steps;
-  double to = steps == 1 ? frame.t_end : t + h;
+  const double usual = (frame.t_end - t) / steps;
+  const double h = rests(frame) ? frame.t_end - t : usual;
+  double to = frame.t_end;
   ContactStep::Books books;
   ContactStep::Outcome outcome;
   Meet first;
@@ -257,7 +271,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   constexpr int kAttempts = 2;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const Stopwatch::WallLap lap(contact_wall_s);
-    step_.begin(state, h, false);
+    step_.begin(state, h, usual, false);
     for (const int r : frame.island.records) {
       if (!state.pairs[r].standing) continue;
       for (const int body : {state.pairs[r].a, state.pairs[r].b})
@@ -274,7 +288,9 @@ double IslandMotion::step_standing(Frame& frame, double t) {
       return t;
     }
     outcome = step_.solve(state, books);
-    if (const double part = sound_part(state, h); part < 1) to = t + part * h;
+    to = step_.duration() < frame.t_end - t ? t + step_.duration() : frame.t_end;
+    if (const double part = sound_part(state, step_.duration()); part < 1)
+      to = t + part * step_.duration();
     for (const Eigen::Index i : step_.movers()) {
       state.bring(i, t, worker_, frame.island.result.tally);
       state.change_course(i);
@@ -282,6 +298,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
     first = first_meeting(frame, t, to, true);
     if (!frame.island.strays.empty()) break;
     bool again = first.rests;
+    if (again) join_touching(frame, t);
     for (const int r : frame.island.records) {
       PairRecord& record = state.pairs[r];
       if (record.standing || record.meeting != Meeting::impact || record.safe_until > to ||
@@ -342,6 +359,22 @@ void IslandMotion::await_points(Frame& frame, double t, Meet& first) {
   }
 }
 
+// What comes to rest carries what touches it: all pairs that touch now are stepped from now on.
+void IslandMotion::join_touching(Frame& frame, double t) {
+  CollisionState& state = frame.state;
+  for (const int r : frame.island.records) {
+    PairRecord& record = state.pairs[r];
+    if (record.standing || !is_known(state, record, t)) continue;
+    const Collider& a = state.colliders[static_cast<std::size_t>(record.pair.a)];
+    const Collider& b = state.colliders[static_cast<std::size_t>(record.pair.b)];
+    const Pose pose_a = collider_pose(a, state.moving_pose(record.a, t, true, worker_).pose);
+    const Pose pose_b = collider_pose(b, state.moving_pose(record.b, t, true, worker_).pose);
+    const double touch = state.touch(record);
+    if ((pose_a.c - pose_b.c).norm() > a.bounding_radius + b.bounding_radius + touch) continue;
+    record.standing = find_gap(a, pose_a, b, pose_b).value <= touch;
+  }
+}
+
 void IslandMotion::advance_movers(Frame& frame, double t, double to) {
   CollisionState& state = frame.state;
   if (to > t) {
@@ -371,7 +404,7 @@ double IslandMotion::step_foreseeing(Frame& frame, double t) {
   double to;
   {
     const Stopwatch::WallLap lap(contact_wall_s);
-    step_.begin(state, h, true);
+    step_.begin(state, h, h, true);
     for (const int r : frame.island.records) {
       const PairRecord& record = state.pairs[r];
       for (const int body : {record.a, record.b})
@@ -403,7 +436,7 @@ void IslandMotion::note(Frame& frame, const ContactStep::Outcome& outcome,
 }
 
 bool IslandMotion::proves_rest(CollisionState& state, const Island& island) {
-  step_.begin(state, state.def.contact_step, true);
+  step_.begin(state, state.def.contact_step, state.def.contact_step, true);
   for (const int r : island.records)
     if (state.pairs[r].standing) step_.add(state, r);
   return step_.holds_all(state, island.bodies) && step_.proves_rest(state);

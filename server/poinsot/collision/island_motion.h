@@ -58,9 +58,11 @@ class IslandMotion {
   double step_standing(Frame& frame, double t);
   double step_foreseeing(Frame& frame, double t);
   Meet first_meeting(Frame& frame, double t, double to, bool in_contact);
+  bool rests(const Frame& frame) const;
   bool is_slow(Frame& frame, const PairRecord& record, double t, double h);
   bool afford(Frame& frame, double& budget, double cost);
   void meet(Frame& frame, const Meet& at);
+  void join_touching(Frame& frame, double t);
   void await_points(Frame& frame, double t, Meet& first);
   void advance_movers(Frame& frame, double t, double to);
   void watch(Frame& frame, Eigen::Index i, double t);

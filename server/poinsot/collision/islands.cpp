@@ -48,7 +48,7 @@ void Islands::number(const CollisionState& state, std::span<const std::uint8_t> 
   for (int i = 0; i < n; ++i) parent_[static_cast<std::size_t>(i)] = i;
   const auto is_excited = [&](int i) { return excited[static_cast<std::size_t>(i)] != 0; };
   for (const PairRecord& record : state.pairs.records()) {
-    if (!is_excited(record.a) && !is_excited(record.b)) continue;
+    if (record.idle || (!is_excited(record.a) && !is_excited(record.b))) continue;
     if (state.is_awake(record.a) && state.is_awake(record.b)) join(record.a, record.b);
   }
   for (const BodySystem& system : world.systems)
@@ -63,7 +63,7 @@ void Islands::number(const CollisionState& state, std::span<const std::uint8_t> 
     if (number == kNone) number = 0;
   };
   for (const PairRecord& record : state.pairs.records()) {
-    if (!is_excited(record.a) && !is_excited(record.b)) continue;
+    if (record.idle || (!is_excited(record.a) && !is_excited(record.b))) continue;
     for (const int i : {record.a, record.b})
       if (state.is_awake(i)) open(i);
   }
@@ -97,7 +97,7 @@ void Islands::fill(CollisionState& state) {
     const int b = island_of[static_cast<std::size_t>(records[r].b)];
     const int owner = a >= 0 ? a : b;
     // A pair of two islands is apart for this frame, unless one of them is thrown out of its box.
-    if (owner < 0 || (a >= 0 && b >= 0 && a != b)) continue;
+    if (owner < 0 || records[r].idle || (a >= 0 && b >= 0 && a != b)) continue;
     const bool outsider = state.is_awake(records[r].a) && state.is_awake(records[r].b) && a != b;
     if (!outsider) islands_[static_cast<std::size_t>(owner)].records.push_back(static_cast<int>(r));
   }
@@ -118,6 +118,7 @@ void Islands::fill(CollisionState& state) {
       std::swap(island.records_before, before_[static_cast<std::size_t>(before)].records_before);
       std::swap(island.contacts_before, before_[static_cast<std::size_t>(before)].contacts_before);
       island.done = true;
+      island.fresh = false;
       continue;
     }
     for (const Eigen::Index i : island.bodies) {
@@ -126,8 +127,8 @@ void Islands::fill(CollisionState& state) {
       before_[static_cast<std::size_t>(old)].restore(state);
       before_[static_cast<std::size_t>(old)].done = false;
     }
-    for (const int r : island.records) state.pairs.make_contact(state.pairs[r]);
-    island.save(state);
+    island.fresh = true;
+    island.bodies_before.clear();
   }
 }
 

@@ -25,7 +25,20 @@ void PairStore::make_contact(PairRecord& record) {
   free_.pop_back();
 }
 
+void PairStore::make_crowd_contact(PairRecord& record) {
+  if (record.crowd_contact >= 0) return;
+  if (free_crowd_.empty()) {
+    record.crowd_contact = static_cast<int>(crowd_contacts_.size());
+    crowd_contacts_.emplace_back();
+    return;
+  }
+  record.crowd_contact = free_crowd_.back();
+  free_crowd_.pop_back();
+  crowd_contact(record).forget();
+}
+
 void PairStore::drop(const PairRecord& record) {
+  if (record.crowd_contact >= 0) free_crowd_.push_back(record.crowd_contact);
   if (record.contact < 0) return;
   PairContact& contact = contacts_[static_cast<std::size_t>(record.contact)];
   contact.points.clear();
@@ -76,6 +89,11 @@ std::uint64_t digest_of(const PairContact& contact) {
 void PairStore::hash_into(Hash64& hash) const {
   for (const PairRecord& record : records_) {
     const PairContact* contact = find_contact(record);
+    if (record.crowd_contact >= 0) {
+      hash.add(static_cast<std::uint64_t>(record.pair.a) << 32 |
+               static_cast<std::uint32_t>(record.pair.b));
+      crowd_contacts_[static_cast<std::size_t>(record.crowd_contact)].hash_into(hash);
+    }
     if (!record.standing && (contact == nullptr || contact->points.empty())) continue;
     hash.add(static_cast<std::uint64_t>(record.pair.a) << 32 |
              static_cast<std::uint32_t>(record.pair.b));

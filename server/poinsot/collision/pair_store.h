@@ -11,6 +11,7 @@
 #include "poinsot/base/check.h"
 #include "poinsot/base/hash.h"
 #include "poinsot/collision/broad_phase.h"
+#include "poinsot/collision/crowd_contact.h"
 #include "poinsot/collision/impact_search.h"
 #include "poinsot/collision/manifold.h"
 
@@ -52,8 +53,10 @@ struct PairRecord {
   Vec3 normal = Vec3::Zero(), point = Vec3::Zero();
   SearchMemory memory;
 
-  bool standing = false;  // touches, and lasts: stepped, not searched
-  int contact = -1;       // index into contacts; -1: never near
+  bool standing = false;   // touches, and lasts: stepped, not searched
+  int contact = -1;        // index into contacts; -1: never near
+  bool idle = false;       // of a body in the crowd, and apart for this frame
+  int crowd_contact = -1;  // index into crowd contacts; -1: never near
 };
 
 class PairStore {
@@ -102,6 +105,15 @@ class PairStore {
   // Gives each of these records a contact.
   void make_contact(PairRecord& record);
 
+  // The same for the contacts of the crowd.
+  CrowdContact& crowd_contact(const PairRecord& record) {
+    return crowd_contacts_[static_cast<std::size_t>(record.crowd_contact)];
+  }
+  const CrowdContact& crowd_contact(const PairRecord& record) const {
+    return crowd_contacts_[static_cast<std::size_t>(record.crowd_contact)];
+  }
+  void make_crowd_contact(PairRecord& record);
+
   void hash_into(Hash64& hash) const;
 
  private:
@@ -111,6 +123,8 @@ class PairStore {
   std::vector<PairRecord> records_, next_;
   std::vector<PairContact> contacts_;
   std::vector<int> free_;
+  std::vector<CrowdContact> crowd_contacts_;
+  std::vector<int> free_crowd_;
   std::vector<int> first_, of_;
 };
 

@@ -20,22 +20,9 @@
 #include <span>
 
 #include "poinsot/contact/contact.h"
+#include "poinsot/contact/solve_residual.h"
 
 namespace poinsot {
-
-// How far a solve is from the law above.
-struct SolveResidual {
-  double normal =
-      0;  // [m/s] largest |min(λn w, vn − target)| of a contact, w: its inverse effective mass
-  double friction = 0;  // [m/s] largest distance of w λt from what the cone and the slip ask for
-  double joint = 0;     // [m/s] largest relative velocity of a joint beside its target
-  double balance = 0;   // [m/s] largest |v − v* − M⁻¹Jᵀλ| of a body
-  int iterations = 0;   // of Newton's method, all passes together
-  int passes = 0;       // proximal and de Saxcé
-  bool converged = false;
-
-  double worst() const;  // [m/s] of the four
-};
 
 class ConvexNewton {
  public:
@@ -63,6 +50,9 @@ class ConvexNewton {
 
  private:
   struct Scratch;
+
+  SolveResidual iterate();
+
   std::unique_ptr<Scratch> scratch_;
 };
 

@@ -161,6 +161,14 @@ void SimulationLayer::advance(std::span<const Eigen::Index> bodies, double from,
   }
 }
 
+void SimulationLayer::accept(std::span<const Eigen::Index> bodies, Tally& tally) {
+  freeze_unsound(bodies, tally);
+  for (const Eigen::Index i : bodies) {
+    methods_[static_cast<std::size_t>(i)] = Method::semi_implicit_euler;
+    last_good_.col(i) = world_.y.col(i);
+  }
+}
+
 bool SimulationLayer::is_in_flight(Eigen::Index i) const {
   return methods_[static_cast<std::size_t>(i)] == Method::flight &&
          same_column(world_.y, last_good_, i);

@@ -58,6 +58,10 @@ class SimulationLayer {
   void advance(std::span<const Eigen::Index> bodies, double from, double to, bool in_contact,
                SimulationWorker& worker, Tally& tally);
 
+  // These bodies were moved by others to the states they have; unsound ones are put back and
+  // frozen.
+  void accept(std::span<const Eigen::Index> bodies, Tally& tally);
+
   // All bodies are at t_end: it becomes the world's time.
   void commit(double t_end, const Tally& tally);
 

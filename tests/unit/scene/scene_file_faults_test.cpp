@@ -86,7 +86,8 @@ const std::vector<Malformed> kMalformed = {
      "s.yaml:1:16: allow_overlap must be true or false, is 'yes'"},
 
     // Later keys
-    {"Profile", "bodies: []\nprofile: fast", "s.yaml:2:1: 'profile' is not supported yet"},
+    {"Profile", "bodies: []\nprofile: quick",
+     "s.yaml:2:10: unknown profile 'quick', known: accurate, fast"},
     {"StaticFriction", with("shape: {sphere: 1}, material: {static_friction: 1}"),
      "s.yaml:2:55: 'static_friction' is not supported yet"},
     {"ConvexFile", of("convex: {file: a.obj}"), "s.yaml:2:32: 'file' is not supported yet"},
@@ -115,15 +116,14 @@ const std::vector<Malformed> kMalformed = {
      "s.yaml:2:25: tolerance must be 0 (the integrator's own) or 1e-15 to 0.1, is -1e-09"},
     {"ToleranceMisplaced", "bodies: []\ncollision: {tolerance: 1e-9}",
      "s.yaml:2:13: unknown key 'tolerance' here, it belongs in simulation"},
-    {"UnknownSolver", "bodies: []\ncollision: {contact_solver: sequential_impulse}",
-     "s.yaml:2:29: unknown contact_solver 'sequential_impulse', did you mean "
-     "'sequential_impulses'?"},
+    {"UnknownSolver", "bodies: []\ncollision: {contact_solver: soft_steps}",
+     "s.yaml:2:29: unknown contact_solver 'soft_steps', did you mean 'soft_step'?"},
     {"FrameRate", "bodies: []\npresentation: {frame_rate: 0}",
      "s.yaml:2:28: frame_rate must be 0.001 to 1000000 Hz, is 0"},
     {"ContactStep", "bodies: []\ncollision: {contact_step: -0.1}",
      "s.yaml:2:27: contact_step must be 1e-09 to 1 s, is -0.1"},
-    {"Iterations", "bodies: []\ncollision: {iterations: 2.5}",
-     "s.yaml:2:25: iterations must be a whole number, is '2.5'"},
+    {"ContactTolerance", "bodies: []\ncollision: {contact_tolerance: 0}",
+     "s.yaml:2:32: contact_tolerance must be > 0 and < 1, is 0"},
     {"HexNumber", "bodies: []\nsimulation: {step: 0x10}",
      "s.yaml:2:20: step must be a finite decimal number, is '0x10'"},
     {"GravityNaN", "bodies: []\nsimulation: {gravity: [0, 0, .nan]}",
@@ -367,7 +367,7 @@ bodies:
     mass: -2
     shape: {capsule: {radius: 1, lenght: 2}}
     orientation: {x: 0, y: 0, z: 0, w: 0}
-profile: fast
+profile: quick
 )"),
             "s.yaml:1:26: unknown integrator 'rk5', did you mean 'rk4'?\n"
             "s.yaml:4:18: box size z must be > 0 m and at most 1e+12 m, is -1\n"
@@ -377,7 +377,7 @@ profile: fast
             "s.yaml:9:22: capsule needs the key 'length'\n"
             "s.yaml:9:34: unknown key 'lenght', did you mean 'length'?\n"
             "s.yaml:10:18: orientation must not be the zero quaternion\n"
-            "s.yaml:11:1: 'profile' is not supported yet");
+            "s.yaml:11:10: unknown profile 'quick', known: accurate, fast");
 }
 
 TEST(SceneFaults, OfAnAliasAreReportedOnce) {

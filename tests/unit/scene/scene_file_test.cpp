@@ -25,8 +25,8 @@ TEST(SceneFile, ReadsEveryTable) {
 world: lab-1
 allow_overlap: true
 presentation: {frame_rate: 120}
-collision: {impact_search: none, contact_solver: sequential_impulses, contact_step: 0.001,
-            iterations: 50, contact_margin: 0.1, push_out_speed: 2}
+collision: {impact_search: none, contact_solver: soft_step, contact_step: 0.001,
+            contact_tolerance: 0.01, contact_margin: 0.1, push_out_speed: 2}
 simulation: {integrator: semi_implicit_euler, step: 0.0005, tolerance: 1e-9, gravity: [0, 1, 2]}
 bodies: []
 )");
@@ -34,7 +34,8 @@ bodies: []
   EXPECT_TRUE(scene.allow_overlap);
   EXPECT_EQ(scene.presentation.frame_rate, 120);
   EXPECT_EQ(scene.collision.contact_step, 0.001);
-  EXPECT_EQ(scene.collision.iterations, 50);
+  EXPECT_EQ(scene.collision.contact_solver, ContactSolverKind::soft_step);
+  EXPECT_EQ(scene.collision.contact_tolerance, 0.01);
   EXPECT_EQ(scene.collision.contact_margin, 0.1);
   EXPECT_EQ(scene.collision.push_out_speed, 2);
   EXPECT_EQ(scene.simulation.integrator, IntegratorKind::semi_implicit_euler);
@@ -50,6 +51,18 @@ TEST(SceneFile, HasTheDefaultsOfTheStructs) {
   EXPECT_EQ(scene.collision.contact_step, fresh.collision.contact_step);
   EXPECT_EQ(scene.simulation.gravity, fresh.simulation.gravity);
   EXPECT_FALSE(scene.allow_overlap);
+}
+
+TEST(SceneFile, AProfileSetsDefaultsWhereverItStands) {
+  const Scene scene = read("bodies: []\ncollision: {contact_step: 0.002}\nprofile: fast");
+  EXPECT_EQ(scene.collision.contact_tolerance,
+            collision_defaults(Profile::fast).contact_tolerance);
+  EXPECT_EQ(scene.collision.contact_step, 0.002);
+  EXPECT_EQ(read("bodies: []\ncollision: {contact_tolerance: 0.1}\nprofile: fast")
+                .collision.contact_tolerance,
+            0.1);
+  EXPECT_EQ(read("bodies: []\nprofile: accurate").collision.contact_tolerance,
+            CollisionDef().contact_tolerance);
 }
 
 TEST(SceneFile, ReadsABody) {

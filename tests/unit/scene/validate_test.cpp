@@ -51,7 +51,7 @@ TEST(Validate, ChecksTheTables) {
               s.world = "a/b";
               s.presentation.frame_rate = 0;
               s.collision.contact_step = -1;
-              s.collision.iterations = 0;
+              s.collision.contact_tolerance = 0;
               s.collision.contact_margin = kNaN;
               s.collision.push_out_speed = -1;
               s.collision.contact_band = 0;
@@ -65,7 +65,7 @@ TEST(Validate, ChecksTheTables) {
             (Faults{"world: world must be 1 to 127 letters, digits, '_' or '-', is 'a/b'",
                     "presentation.frame_rate: frame_rate must be 0.001 to 1000000 Hz, is 0",
                     "collision.contact_step: contact_step must be 1e-09 to 1 s, is -1",
-                    "collision.iterations: iterations must be 1 to 1000000, is 0",
+                    "collision.contact_tolerance: contact_tolerance must be > 0 and < 1, is 0",
                     "collision.contact_margin: contact_margin must be 0 to 1, is nan",
                     "collision.push_out_speed: push_out_speed must be >= 0 m/s and finite, is -1",
                     "collision.contact_band: contact_band must be 1e-13 to 0.001, is 0",

@@ -1,0 +1,41 @@
+// Where a pair of a crowd touches: one plane and up to four points that keep to their bodies, and
+// what they remember from step to step. Found anew only when the pair has moved.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "poinsot/base/hash.h"
+#include "poinsot/collision/manifold.h"
+
+namespace poinsot {
+
+struct CrowdContact {
+  struct Point {
+    Vec3 on_a = Vec3::Zero();   // [m] on the surface of a, in the frame S of its shape
+    Vec3 on_b = Vec3::Zero();   // [m] on that of b, likewise
+    double normal_impulse = 0;  // [N·s] of the last sub-step
+    std::uint32_t feature = kNearestFeature;
+  };
+
+  Pose measured;       // of B's shape in A's frame when the points were last found …
+  double margin = -1;  // [m] … and how far apart they were looked for; < 0: never
+  int count = 0;
+  Vec3 normal_in_a = Vec3::UnitZ();  // unit, from b to a
+  std::array<Point, Manifold::kMaxPoints> points;
+  Vec3 friction_in_a = Vec3::Zero();  // [N·s] on a, in the frame S of A
+  double twist_impulse = 0;           // [N·m·s] on a about the normal
+
+  void forget();  // as if it had never been near
+  void hash_into(Hash64& hash) const;
+};
+
+// Brings a contact to where its shapes are now: points nearer than `margin` [m], and some beyond.
+// Points that continue old ones keep their impulses. A pair of polyhedra that turned and shifted by
+// less than a few thousandths of its size keeps its points; their gaps are then wrong by the square
+// of that.
+void measure_contact(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                     double size, double margin, CrowdContact& contact);
+
+}  // namespace poinsot
