@@ -71,9 +71,8 @@ void run(const std::string& name, const ContactProblem& problem,
   for (PointJoint& joint : warm.joints) joint.impulse *= 1.01;
   const Timed near = time_solves(warm);
   show("near", near);
-  const SolveResidual judged = measure_residual(problem.bodies, cold.solved.bodies,
-                                                cold.solved.contacts, problem.target,
-                                                cold.solved.joints);
+  const SolveResidual judged = measure_residual(
+      problem.bodies, cold.solved.bodies, cold.solved.contacts, problem.target, cold.solved.joints);
   std::printf(" | judged %8.1e", judged.worst());
   if (error) std::printf(" statics %8.1e", error(cold.solved));
   std::printf("\n");

@@ -7,7 +7,6 @@ namespace poinsot::test {
 
 constexpr double kFriction = 0.6;
 
-
 int ContactProblem::add_ground() {
   ContactBody ground;
   ground.c = ground.v = ground.omega = Vec3::Zero();
@@ -22,9 +21,9 @@ int ContactProblem::add_box(double mass, const Vec3& size, const Vec3& c, const 
   body.omega.setZero();
   body.inv_mass = 1 / mass;
   const Vec3 s = size.cwiseProduct(size);
-  body.inv_J_W =
-      Vec3(12 / (mass * (s.y() + s.z())), 12 / (mass * (s.x() + s.z())), 12 / (mass * (s.x() + s.y())))
-          .asDiagonal();
+  body.inv_J_W = Vec3(12 / (mass * (s.y() + s.z())), 12 / (mass * (s.x() + s.z())),
+                      12 / (mass * (s.x() + s.y())))
+                     .asDiagonal();
   bodies.push_back(body);
   return static_cast<int>(bodies.size()) - 1;
 }
@@ -98,8 +97,7 @@ ContactProblem wall(int nx, int ny, int nz) {
   const auto box = [&](int i, int j, int k) { return 1 + i + nx * (j + ny * k); };
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i)
-        problem.add_box(1, Vec3::Ones(), {i + 0.5, j + 0.5, k + 0.5});
+      for (int i = 0; i < nx; ++i) problem.add_box(1, Vec3::Ones(), {i + 0.5, j + 0.5, k + 0.5});
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
@@ -122,8 +120,8 @@ ContactProblem chain(int links, double last_mass) {
   int before = problem.add_ground();
   const Vec3 along = Vec3(1, 0, -1).normalized();
   for (int i = 0; i < links; ++i) {
-    const int link = problem.add_box(i + 1 == links ? last_mass : 1.0, {0.2, 0.3, 1},
-                                     (i + 0.5) * along);
+    const int link =
+        problem.add_box(i + 1 == links ? last_mass : 1.0, {0.2, 0.3, 1}, (i + 0.5) * along);
     problem.add_joint(link, before, i * along);
     before = link;
   }

@@ -11,7 +11,7 @@
 
 namespace poinsot::test {
 
-constexpr double kGravity = 9.81;    // [m/s²]
+constexpr double kGravity = 9.81;   // [m/s²]
 constexpr double kStep = 1.0 / 60;  // [s]
 
 struct ContactProblem {

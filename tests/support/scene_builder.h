@@ -23,7 +23,8 @@ inline BodyDef box(std::string name, const Vec3& position, const Vec3& size = Ve
                    double mass = 2) {
   BodyDef body;
   body.name = std::move(name);
-  body.shapes.push_back({Box{size}, {}});
+  body.shapes.resize(1);
+  body.shapes[0].shape = Box{size};
   const Vec3 s = size.cwiseAbs2();
   body.mass_properties.mass = mass;
   body.mass_properties.J =

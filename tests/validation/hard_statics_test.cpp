@@ -16,7 +16,7 @@ constexpr double kPi = 3.14159265358979324;
 
 // Unit boxes of these masses on one another.
 Scene tower(const std::vector<double>& masses) {
-  Scene scene = test::scene({test::ground(0.5)});
+  Scene scene = test::scene(std::vector<BodyDef>(1, test::ground(0.5)));
   for (std::size_t k = 0; k < masses.size(); ++k) {
     scene.bodies.push_back(test::box("box " + std::to_string(k),
                                      {0, 0, 0.5 + static_cast<double>(k)}, Vec3(1, 1, 1),
@@ -95,7 +95,7 @@ TEST(HardStatics, FastTowersOfEqualBoxesStandToAMillimetre) {
 // D12: n bricks of length 1, each shifted by 1/(2k) over the one below, reach out by half the
 // harmonic number and no more.
 Scene overhang(int n, double more) {
-  Scene scene = test::scene({});
+  Scene scene = test::scene(std::vector<BodyDef>());
   BodyDef table = test::box("table", {-5, 0, -0.5}, {10, 10, 1});
   table.is_static = true;
   table.mass_properties = {};
@@ -128,7 +128,7 @@ TEST(HardStatics, HarmonicOverhangsStandAMillimetreInsideAndFallAMillimetreBeyon
 
 // D15: a semicircular arch of n radial voussoirs, mean radius 1, on immovable springers.
 Scene arch(int n, double thickness) {
-  Scene scene = test::scene({});
+  Scene scene = test::scene(std::vector<BodyDef>());
   const double inner = 1 - thickness / 2, outer = 1 + thickness / 2;
   for (int k = -1; k <= n; ++k) {
     const double from = kPi * k / n, to = kPi * (k + 1) / n;

@@ -10,7 +10,9 @@ constexpr std::size_t kArea = 36;
 // [-] of its diagonal: a pivot below is rounding.
 constexpr double kLeastPivot = 1e-15;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 // target −= left · right, 6 × 6 by columns. Two rows at once: the order of sums is fixed.
 using Two = double __attribute__((vector_size(16), aligned(8), may_alias));

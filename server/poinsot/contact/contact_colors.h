@@ -7,6 +7,7 @@
 
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,9 @@ class ContactColors {
   // Groups of contacts: one per colour that is in use, and of one contact each if no colour was
   // left for it.
   void assign(std::span<const ColorPair> pairs, int bodies);
+
+  // Of a movable body, up to kColors of them; 0 of others.
+  int contacts_of(int body) const { return std::popcount(used_[static_cast<std::size_t>(body)]); }
 
   std::size_t groups() const { return starts_.size() - 1; }
   std::span<const int> group(std::size_t k) const {

@@ -54,8 +54,8 @@ inline ConeImpulse nearest_in_cone(const ConeArgument& z, double friction, const
   const double upright = (z.normal - friction * z.shift) * scale.inverse_normal;
   if (friction > 0 && length * scale.inverse_tangent <= friction * upright) {
     result.region = ConeImpulse::Region::kStick;
-    result.impulse = Vec3(upright, z.tangent[0] * scale.inverse_tangent,
-                          z.tangent[1] * scale.inverse_tangent);
+    result.impulse =
+        Vec3(upright, z.tangent[0] * scale.inverse_tangent, z.tangent[1] * scale.inverse_tangent);
     return result;
   }
   const double pressed = z.normal + friction * z.excess;

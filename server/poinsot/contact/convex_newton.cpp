@@ -14,58 +14,116 @@ struct ConvexNewton::Scratch {
   NewtonPass pass;
   ShiftAcceleration acceleration;
   std::vector<Vec3> best;
+
+  void keep();
+  void restore();
+  void clear();
 };
 
 namespace {
 
-constexpr double kInnerPart = 0.05;  // [-] of the residual, that ends the pass that starts from it
-constexpr int kPatience = 8;         // passes without progress that end a solve
+// [-] R beside inverse effective masses where active sets are guessed: every pass leaves this much
+// of the error, times the condition of the contacts, of which the mass ratio is part. Not smaller
+// than the factorisation bears.
+constexpr double kHard = 1e-8, kHardest = 1e-12;
+constexpr double kLeft = 1e-3;  // [-] of the error, beside what depth of stacks adds
+// [-] the same for a pass proper, beside the residual's part of the loads: then points that change
+// their regions do so over what is left to be moved, and Newton's method sees them in time.
+constexpr double kSoftestPass = 1e-2, kHardestPass = 1e-4;
+constexpr double kAccepted = 0.5;     // [-] of the residual, that a guess must come down to
+constexpr double kMuchNearer = 0.1;   // [-] of the residual, that ends a pass before its own end
+constexpr double kInnerPart = 0.05;   // [-] of the residual, to which a pass is solved …
+constexpr double kInnerSpeed = 1e-8;  // [m/s] … but to this at least
+constexpr int kPatience = 15;         // passes without progress that end a solve
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 }  // namespace
+
+void ConvexNewton::Scratch::keep() {
+  best.resize(problem.points.size());
+  for (std::size_t i = 0; i < best.size(); ++i) best[i] = problem.points[i].start;
+}
+
+void ConvexNewton::Scratch::restore() {
+  for (std::size_t i = 0; i < best.size(); ++i) problem.points[i].trial = best[i];
+  problem.follow_trial();
+  problem.accept_trial();
+}
+
+void ConvexNewton::Scratch::clear() {
+  for (NewtonPoint& p : problem.points) p.trial.setZero();
+  problem.follow_trial();
+  problem.accept_trial();
+}
 
 ConvexNewton::ConvexNewton() : scratch_(std::make_unique<Scratch>()) {}
 ConvexNewton::~ConvexNewton() = default;
 ConvexNewton::ConvexNewton(ConvexNewton&&) noexcept = default;
 ConvexNewton& ConvexNewton::operator=(ConvexNewton&&) noexcept = default;
 
+// From the accepted impulses to better ones, left as the problem's trial.
+SolveResidual ConvexNewton::improve(double residual, bool first) {
+  NewtonProblem& problem = scratch_->problem;
+  NewtonPass& pass = scratch_->pass;
+  scratch_->acceleration.choose_shifts(problem);
+  const double hard = std::clamp(kLeft / problem.mass_ratio, kHardest, kHard);
+  problem.set_softness(hard);
+  SolveResidual next = pass.guess(problem);
+  if (next.worst() <= kAccepted * residual) return next;
+  const double load = problem.largest_load();
+  if (first && load > 0) {
+    // The start was of little use: nothing may be a better one.
+    scratch_->clear();
+    scratch_->acceleration.restart();
+    scratch_->acceleration.choose_shifts(problem);
+    next = pass.guess(problem);
+    if (next.worst() <= kAccepted * residual) return next;
+    scratch_->restore();
+    scratch_->acceleration.restart();
+    scratch_->acceleration.choose_shifts(problem);
+  }
+  problem.set_softness(load > 0 ? std::clamp(residual / load, kHardestPass, kSoftestPass)
+                                : kSoftestPass);
+  const double tolerable =
+      std::max(problem.rounding(), std::min(kInnerPart * residual, kInnerSpeed));
+  return pass.run(problem, kMuchNearer * residual, tolerable, max_iterations - pass.iterations);
+}
+
 SolveResidual ConvexNewton::iterate() {
   NewtonProblem& problem = scratch_->problem;
   NewtonPass& pass = scratch_->pass;
-  ShiftAcceleration& acceleration = scratch_->acceleration;
-  std::vector<Vec3>& best = scratch_->best;
-  acceleration.restart();
+  scratch_->acceleration.load(problem.points.size());
   pass.load(problem);
-  best.resize(problem.points.size());
   SolveResidual now = problem.follow_trial(), least;
-  int best_pass = 0;
-  for (int k = 0;; ++k) {
+  int best_pass = 0, k = 0;
+  bool stilled = false;
+  for (;; ++k) {
     problem.accept_trial();
-    if (getenv("TRACE"))
-      fprintf(stderr, "pass %d n %.3e t %.3e j %.3e rounding %.2e\n", k, now.normal, now.friction,
-              now.joint, problem.rounding());
     if (k == 0 || now.worst() < least.worst()) {
       least = now;
       best_pass = k;
-      for (std::size_t i = 0; i < best.size(); ++i) best[i] = problem.points[i].start;
+      scratch_->keep();
     }
-    least.passes = k;
-    least.iterations = pass.iterations;
-    least.factorisations = pass.factorisations;
     least.converged = least.worst() <= std::max(tolerance, problem.rounding());
     if (least.converged || k >= max_passes || pass.iterations >= max_iterations ||
         k - best_pass > kPatience)
       break;
-    acceleration.choose_shifts(problem);
-    now = pass.run(problem, now.worst(), std::max(problem.rounding(), kInnerPart * std::min(now.worst(), tolerance * 1e3)),
-             max_iterations - pass.iterations);
+    if (k - best_pass == kPatience / 2 && !stilled) {
+      // Sliding that its own friction ends within the impulse: no shift of a sliding point fits.
+      scratch_->restore();
+      scratch_->acceleration.restart(true);
+      now = least;
+      stilled = true;
+    }
+    now = improve(now.worst(), k == 0);
   }
-  if (best_pass != least.passes) {
-    for (std::size_t i = 0; i < best.size(); ++i) problem.points[i].trial = best[i];
-    problem.follow_trial();
-    problem.accept_trial();
-  }
+  if (best_pass != k) scratch_->restore();
+  least.passes = k;
+  least.iterations = pass.iterations;
+  least.factorisations = pass.factorisations;
   return least;
 }
 

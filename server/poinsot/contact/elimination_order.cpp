@@ -7,7 +7,9 @@ namespace {
 
 constexpr int kNone = -1;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 }  // namespace
 
@@ -82,8 +84,7 @@ void EliminationOrder::gather_front(int node) {
   for (int k = 0; k < neighbour_count_[at(node)]; ++k) add(neighbours_[at(from + k)]);
   for (int k = 0; k < element_count_[at(node)]; ++k) {
     const int element = elements_[at(from + k)];
-    for (int q = 0; q < front_size_[at(element)]; ++q)
-      add(rows[at(front_start_[at(element)] + q)]);
+    for (int q = 0; q < front_size_[at(element)]; ++q) add(rows[at(front_start_[at(element)] + q)]);
     absorbed_[at(element)] = 1;
   }
   front_size_[at(node)] = static_cast<int>(rows.size()) - front_start_[at(node)];

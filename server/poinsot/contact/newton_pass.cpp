@@ -14,9 +14,10 @@ constexpr double kSameStiffness = 0.1;  // [-] likewise, across the sliding
 // [-] of the slope at the start, that ends a line search.
 constexpr double kFlat = 1e-2;
 constexpr int kMaxTrials = 40;
-constexpr double kMuchNearer = 0.1;  // [-] of a residual
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 Mat3 skew(const Vec3& r) {
   Mat3 m;
@@ -43,19 +44,44 @@ Vec3 place_of(const NewtonPoint& p, const NewtonProblem& problem) {
 
 // R λ₀ − (velocity − target). A sliding point's speed cancels its shift; what is left is found from
 // their differences.
-ConeArgument argument_of(const NewtonPoint& p, const Vec3& moved) {
+ConeArgument argument_of(const NewtonPoint& p, const ConeScale& scale, const Vec3& moved) {
   ConeArgument z;
-  z.normal = p.scale.normal * p.start[0] - (p.velocity[0] - p.target[0]) - moved[0];
-  const double change[2] = {p.scale.tangent * p.start[1] - moved[1],
-                            p.scale.tangent * p.start[2] - moved[2]};
+  z.normal = scale.normal * p.start[0] - (p.velocity[0] - p.target[0]) - moved[0];
+  const double change[2] = {scale.tangent * p.start[1] - moved[1],
+                            scale.tangent * p.start[2] - moved[2]};
   for (int k = 0; k < 2; ++k) z.tangent[k] = change[k] - p.velocity[k + 1];
   z.shift = p.shift;
   const double length = std::sqrt(z.tangent[0] * z.tangent[0] + z.tangent[1] * z.tangent[1]);
-  const double gained = change[0] * (z.tangent[0] - p.velocity[1]) +
-                        change[1] * (z.tangent[1] - p.velocity[2]);
+  const double gained =
+      change[0] * (z.tangent[0] - p.velocity[1]) + change[1] * (z.tangent[1] - p.velocity[2]);
   const double both = length + p.speed;
   z.excess = (both > 0 ? gained / both : 0.0) + (p.speed - p.shift);
   return z;
+}
+
+// Which region the point is in as impulses and velocities stand, each weighed alike; the impulse is
+// that of the region's own law, be it in the cone or not.
+ConeImpulse guess_of(const NewtonPoint& p) {
+  const ConeScale alike = ConeScale::of(p.w_normal, p.w_tangent);
+  const Vec3 still = Vec3::Zero();
+  ConeImpulse cone = nearest_in_cone(argument_of(p, alike, still), p.friction, alike);
+  const ConeArgument z = argument_of(p, p.scale, still);
+  const double upright = z.normal - p.friction * z.shift;
+  if (cone.region == ConeImpulse::Region::kStick)
+    cone.impulse = Vec3(p.scale.inverse_normal * upright, p.scale.inverse_tangent * z.tangent[0],
+                        p.scale.inverse_tangent * z.tangent[1]);
+  if (cone.region != ConeImpulse::Region::kSlide) return cone;
+  cone.along = 1 / (p.scale.normal + p.friction * p.friction * p.scale.tangent);
+  const double length = std::sqrt(z.tangent[0] * z.tangent[0] + z.tangent[1] * z.tangent[1]);
+  const double normal = (z.normal + p.friction * z.excess) * cone.along;
+  cone.impulse[0] = normal;
+  for (int k = 0; k < 2; ++k) {
+    cone.direction[k] = length > 0 ? z.tangent[k] / length : 0.0;
+    cone.impulse[k + 1] = p.friction * normal * cone.direction[k];
+  }
+  cone.across =
+      length > 0 ? std::min(p.friction * p.start[0] / length, p.scale.inverse_tangent) : 0.0;
+  return cone;
 }
 
 bool differs(const ConeImpulse& now, const ConeImpulse& then) {
@@ -86,7 +112,7 @@ void NewtonPass::load(const NewtonProblem& problem) {
   change_.resize(6 * n);
   gradient_.resize(6 * n);
   step_.resize(6 * n);
-  factorised_.clear();
+  factorised_softness_ = 0;
 }
 
 void NewtonPass::group_points() {
@@ -145,7 +171,7 @@ double NewtonPass::find_gradient(const NewtonProblem& problem) {
 }
 
 bool NewtonPass::is_stale(const NewtonProblem& problem) const {
-  if (factorised_.size() != problem.points.size()) return true;
+  if (factorised_softness_ != problem.softness()) return true;
   for (std::size_t i = 0; i < factorised_.size(); ++i)
     if (differs(problem.points[i].cone, factorised_[i])) return true;
   return false;
@@ -153,6 +179,7 @@ bool NewtonPass::is_stale(const NewtonProblem& problem) const {
 
 void NewtonPass::assemble(NewtonProblem& problem) {
   ++factorisations;
+  factorised_softness_ = problem.softness();
   factorised_.resize(problem.points.size());
   for (Group& group : groups_) group.sum.setZero();
   for (std::size_t i = 0; i < problem.points.size(); ++i) {
@@ -161,9 +188,9 @@ void NewtonPass::assemble(NewtonProblem& problem) {
     Group& group = groups_[at(group_of_[i])];
     if (!p.joint && p.cone.region == ConeImpulse::Region::kOpen) continue;
     const Mat3 X = skew(place_of(p, problem) - group.reference);
-    const Mat3 S = p.joint ? Mat3(p.scale.inverse_normal * Mat3::Identity())
-                           : Mat3(p.frame * p.cone.stiffness(p.scale, p.friction) *
-                                  p.frame.transpose());
+    const Mat3 S =
+        p.joint ? Mat3(p.scale.inverse_normal * Mat3::Identity())
+                : Mat3(p.frame * p.cone.stiffness(p.scale, p.friction) * p.frame.transpose());
     const Mat3 XS = X * S;
     group.sum.topLeftCorner<3, 3>() += S;
     group.sum.bottomLeftCorner<3, 3>() += XS;
@@ -225,7 +252,7 @@ double NewtonPass::slope(NewtonProblem& problem, double length) {
     if (p.joint)
       p.cone.impulse = p.start - p.scale.inverse_normal * (p.velocity - p.target + moved);
     else
-      p.cone = nearest_in_cone(argument_of(p, moved), p.friction, p.scale);
+      p.cone = nearest_in_cone(argument_of(p, p.scale, moved), p.friction, p.scale);
     sum += p.step.dot(p.start - p.cone.impulse);
   }
   return sum;
@@ -278,29 +305,45 @@ void NewtonPass::predict(NewtonProblem& problem) const {
   }
 }
 
-SolveResidual NewtonPass::run(NewtonProblem& problem, double start_residual, double tolerance,
-                              int max_iterations) {
+void NewtonPass::start(NewtonProblem& problem) {
   std::ranges::fill(change_, 0.0);
   for (NewtonPoint& p : problem.points) {
     p.moved.setZero();
     p.step.setZero();
   }
   inertia_slope_ = inertia_curvature_ = 0;
+}
+
+// Along minus the gradient; how far the predicted impulses are from the law.
+SolveResidual NewtonPass::take_step(NewtonProblem& problem) {
+  if (is_stale(problem)) assemble(problem);
+  find_step(problem);
+  ++iterations;
+  predict(problem);
+  return problem.follow_trial();
+}
+
+SolveResidual NewtonPass::guess(NewtonProblem& problem) {
+  start(problem);
+  for (NewtonPoint& p : problem.points) {
+    if (p.joint)
+      p.cone.impulse = p.start - p.scale.inverse_normal * (p.velocity - p.target);
+    else
+      p.cone = guess_of(p);
+  }
+  find_gradient(problem);
+  return take_step(problem);
+}
+
+SolveResidual NewtonPass::run(NewtonProblem& problem, double enough, double tolerance,
+                              int max_iterations) {
+  start(problem);
   slope(problem, 0);
-  for (int k = 0; k < max_iterations; ++k) {
-    const double off = find_gradient(problem);
-    if (getenv("TRACE")) fprintf(stderr, "   it %d off %.3e\n", k, off);
-    if (!(off > tolerance)) break;
-    if (is_stale(problem)) assemble(problem);
-    find_step(problem);
+  for (int k = 0; k < max_iterations && find_gradient(problem) > tolerance; ++k) {
+    const SolveResidual predicted = take_step(problem);
+    if (predicted.worst() <= enough) return predicted;
     if (!(descent_ < 0)) break;
-    ++iterations;
-    predict(problem);
-    const SolveResidual predicted = problem.follow_trial();
-    if (getenv("TRACE")) fprintf(stderr, "      predicted %.3e\n", predicted.worst());
-    if (predicted.worst() <= kMuchNearer * start_residual) return predicted;
     const double length = search(problem);
-    if (getenv("TRACE")) fprintf(stderr, "      len %.3e fact %d\n", length, factorisations);
     for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += length * step_[i];
     for (NewtonPoint& p : problem.points) p.moved += length * p.step;
   }

@@ -23,18 +23,22 @@ class NewtonPass {
   int iterations = 0, factorisations = 0;  // since load
 
   void load(const NewtonProblem& problem);
-  // From the problem's accepted impulses to better ones, left as its trial: those of the pass, or
-  // those that a step of Newton's predicts, brought into the cones, as soon as they are much nearer
-  // to the law than the `start_residual` [m/s]. The pass ends when what bodies and impulses
-  // disagree by is no velocity above `tolerance` [m/s] at a body's points.
-  SolveResidual run(NewtonProblem& problem, double start_residual, double tolerance,
-                    int max_iterations);
+
+  // One step of Newton's from the accepted impulses, in the regions that impulses and velocities
+  // suggest when weighed alike: what an active-set method would do. Leaves the impulses it leads
+  // to, brought into the cones, as the problem's trial.
+  SolveResidual guess(NewtonProblem& problem);
+
+  // The pass proper. Ends when what bodies and impulses disagree by is no velocity above
+  // `tolerance` [m/s] at a body's points, or when the impulses that a step predicts, brought into
+  // the cones, are within `enough` [m/s] of the law. Leaves impulses as the problem's trial.
+  SolveResidual run(NewtonProblem& problem, double enough, double tolerance, int max_iterations);
 
  private:
   struct Group {
-    int a, b;            // moving bodies, a < b; a may be kFixed
-    int coupling;        // pair of the factorisation, kFixed if only one body moves
-    Vec3 reference;      // [m] that its points' arms are summed about
+    int a, b;        // moving bodies, a < b; a may be kFixed
+    int coupling;    // pair of the factorisation, kFixed if only one body moves
+    Vec3 reference;  // [m] that its points' arms are summed about
     BlockLdlt::Block sum;
   };
   struct Key {
@@ -51,6 +55,9 @@ class NewtonPass {
   double curvature(const NewtonProblem& problem) const;
   double search(NewtonProblem& problem);
 
+  void start(NewtonProblem& problem);
+  SolveResidual take_step(NewtonProblem& problem);
+
   BlockLdlt system_;
   std::vector<Key> keys_, sorted_;
   std::vector<Group> groups_;
@@ -58,6 +65,7 @@ class NewtonPass {
   std::vector<std::array<int, 2>> pairs_;
   std::vector<double> change_, gradient_, step_;  // 6 per body
   std::vector<ConeImpulse> factorised_;           // cones of the factorisation at hand
+  double factorised_softness_ = 0;
   double inertia_slope_ = 0, inertia_curvature_ = 0;  // along the step, of ½ xᵀM x
   double descent_ = 0;                                // slope at zero length
 };

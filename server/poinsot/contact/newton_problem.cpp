@@ -10,15 +10,14 @@ namespace poinsot {
 namespace {
 
 constexpr int kUnsound = -2;
-// [-] R of a point beside its inverse effective mass. Smaller: fewer passes; larger: better
-// conditioned. Passes take the error back, so this is no property of the result.
-constexpr double kSoftness = 1e-7;
 // [-] of the mean inverse inertia: what a body that turns about some axes only has about the rest.
 constexpr double kLeastTurn = 1e-12;
 // [-] velocities at points are sums of this many roundings.
 constexpr double kRoundings = 8;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 Vec3 perpendicular(const Vec3& n) {
   Eigen::Index least = 0;
@@ -74,6 +73,12 @@ void NewtonProblem::load_bodies(std::span<const ContactBody> from) {
     body.omega_free = body.omega = source.omega;
     body.reach = 0;
   }
+  double least = 0, largest = 0;
+  for (const NewtonBody& body : bodies) {
+    least = least > 0 ? std::min(least, body.mass) : body.mass;
+    largest = std::max(largest, body.mass);
+  }
+  mass_ratio = largest > 0 ? largest / least : 1.0;
 }
 
 void NewtonProblem::add(NewtonPoint& point, const Vec3& place, std::span<const ContactBody> from,
@@ -101,8 +106,7 @@ void NewtonProblem::add(NewtonPoint& point, const Vec3& place, std::span<const C
   point.carried = point.frame.transpose() * carried;
   point.w_normal = point.joint ? w.mean() : w[0];
   point.w_tangent = point.joint ? w.mean() : 0.5 * (w[1] + w[2]);
-  if (!std::isfinite(w.sum() + point.carried.sum() + 1 / (kSoftness * w.minCoeff()))) return;
-  point.scale = ConeScale::of(kSoftness * point.w_normal, kSoftness * point.w_tangent);
+  if (!std::isfinite(w.sum() + point.carried.sum() + 1 / w.minCoeff())) return;
   if (!std::isfinite(point.trial.sum())) point.trial.setZero();
   point.moved.setZero();
   points.push_back(point);
@@ -113,12 +117,13 @@ void NewtonProblem::load(std::span<const ContactBody> from, std::span<const Cont
                          bool frictional, bool warm) {
   load_bodies(from);
   points.clear();
+  softness_ = 0;
   NewtonPoint point;
   point.joint = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
-    if (!std::isfinite(contact.point.sum() + contact.normal.sum() + contact.friction + target[i]))
-      continue;
+    const double sum = contact.point.sum() + contact.normal.sum() + contact.friction + target[i];
+    if (!std::isfinite(sum + 1 / contact.normal.squaredNorm())) continue;
     const Vec3 t = perpendicular(contact.normal);
     point.frame << contact.normal, t, contact.normal.cross(t);
     point.source = static_cast<int>(i);
@@ -191,8 +196,7 @@ SolveResidual NewtonProblem::measure_trial() const {
       result.joint = std::max(result.joint, beside.norm());
       continue;
     }
-    result.normal =
-        std::max(result.normal, std::abs(std::min(p.trial[0] * p.w_normal, beside[0])));
+    result.normal = std::max(result.normal, std::abs(std::min(p.trial[0] * p.w_normal, beside[0])));
     const double y[2] = {p.w_tangent * p.trial[1] - beside[1],
                          p.w_tangent * p.trial[2] - beside[2]};
     const double length = std::sqrt(y[0] * y[0] + y[1] * y[1]);
@@ -205,6 +209,19 @@ SolveResidual NewtonProblem::measure_trial() const {
   return result;
 }
 
+void NewtonProblem::set_softness(double softness) {
+  if (softness == softness_) return;
+  softness_ = softness;
+  for (NewtonPoint& p : points)
+    p.scale = ConeScale::of(softness * p.w_normal, softness * p.w_tangent);
+}
+
+double NewtonProblem::largest_load() const {
+  double largest = 0;
+  for (const NewtonPoint& p : points)
+    if (!p.joint) largest = std::max(largest, p.w_normal * p.start[0]);
+  return largest;
+}
 
 double NewtonProblem::rounding() const {
   double largest = 0;

@@ -26,24 +26,24 @@ struct NewtonBody {
 };
 
 struct NewtonPoint {
-  int a = 0, b = 0;   // moving bodies, kFixed if infinite
-  int source = 0;     // contact or joint
+  int a = 0, b = 0;  // moving bodies, kFixed if infinite
+  int source = 0;    // contact or joint
   bool joint = false;
   double friction = 0;
-  Vec3 arm_a, arm_b;  // [m] from the centres, zero where the body does not turn
-  Mat3 frame;         // columns: normal, tangents
-  Vec3 carried;       // [m/s]
+  Vec3 arm_a, arm_b;                   // [m] from the centres, zero where the body does not turn
+  Mat3 frame;                          // columns: normal, tangents
+  Vec3 carried;                        // [m/s]
   double w_normal = 0, w_tangent = 0;  // [1/kg] inverse effective mass
   ConeScale scale;
-  Vec3 target;        // [m/s]
-  double shift = 0;   // [m/s] μ times this is what de Saxcé takes from the normal target
-  Vec3 trial;         // [N·s]
+  Vec3 target;          // [m/s]
+  double shift = 0;     // [m/s] μ times this is what de Saxcé takes from the normal target
+  Vec3 trial;           // [N·s]
   Vec3 trial_velocity;  // [m/s] that goes with `trial`
-  Vec3 start;         // [N·s] of the last pass
-  Vec3 velocity;      // [m/s] that goes with `start`
-  double speed = 0;   // [m/s] tangential part of it
-  Vec3 moved, step;   // [m/s] since, and along Newton's direction
-  ConeImpulse cone;   // with `moved`
+  Vec3 start;           // [N·s] of the last pass
+  Vec3 velocity;        // [m/s] that goes with `start`
+  double speed = 0;     // [m/s] tangential part of it
+  Vec3 moved, step;     // [m/s] since, and along Newton's direction
+  ConeImpulse cone;     // with `moved`
 };
 
 constexpr int kFixed = -1;
@@ -59,9 +59,15 @@ class NewtonProblem {
   SolveResidual follow_trial();
   // The last trial is where the next pass starts.
   void accept_trial();
+  // R of points [-] beside their inverse effective masses. Smaller: fewer passes; larger: smoother.
+  void set_softness(double softness);
+  double softness() const { return softness_; }
   // [m/s] Below, velocities at points are rounding.
   double rounding() const;
 
+  double largest_load() const;  // [m/s] λn w of the accepted impulses
+
+  double mass_ratio = 1;  // of the heaviest body to the lightest
   std::vector<NewtonBody> bodies;
   std::vector<NewtonPoint> points;
 
@@ -71,6 +77,7 @@ class NewtonProblem {
 
   SolveResidual measure_trial() const;
 
+  double softness_ = 0;
   std::vector<int> moving_;  // of the caller's body, kFixed or kUnsound
   std::vector<Vec3> pushes_, moments_;
 };

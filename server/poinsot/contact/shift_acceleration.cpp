@@ -12,7 +12,9 @@ namespace {
 constexpr double kRidge = 1e-14;
 constexpr double kWorse = 2;  // [-] growth of the error that ends trust in what was remembered
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 double dot(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;
@@ -22,23 +24,31 @@ double dot(const std::vector<double>& x, const std::vector<double>& y) {
 
 }  // namespace
 
-void ShiftAcceleration::restart() {
+void ShiftAcceleration::load(std::size_t points) {
+  for (Memory& memory : memory_) {
+    memory.speed.resize(points);
+    memory.error.resize(points);
+  }
+  shifts_.resize(points);
+  restart();
+}
+
+void ShiftAcceleration::restart(bool still) {
   filled_ = 0;
+  still_ = still;
   first_ = true;
 }
 
 void ShiftAcceleration::choose_shifts(NewtonProblem& problem) {
   const std::size_t n = problem.points.size();
   if (first_) {
-    for (NewtonPoint& p : problem.points) p.shift = p.joint ? 0.0 : p.speed;
+    for (NewtonPoint& p : problem.points) p.shift = p.joint || still_ ? 0.0 : p.speed;
     first_ = false;
     return;
   }
   newest_ = (newest_ + 1) % (kDepth + 1);
   filled_ = std::min(filled_ + 1, kDepth + 1);
   Memory& now = memory_[at(newest_)];
-  now.speed.resize(n);
-  now.error.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const NewtonPoint& p = problem.points[i];
     const bool slides = !p.joint && p.friction > 0 && p.start[0] > 0;

@@ -15,7 +15,9 @@ namespace poinsot {
 
 class ShiftAcceleration {
  public:
-  void restart();
+  void load(std::size_t points);
+  // The next choice is the speeds at hand, or nothing at all: as if all points stuck.
+  void restart(bool still = false);
   // Sets the shifts of points whose speeds are those of the accepted impulses.
   void choose_shifts(NewtonProblem& problem);
 
@@ -30,7 +32,7 @@ class ShiftAcceleration {
   std::array<Memory, kDepth + 1> memory_;  // a ring
   std::vector<double> shifts_;
   int filled_ = 0, newest_ = 0;
-  bool first_ = true;
+  bool first_ = true, still_ = false;
   double last_error_ = 0;
 };
 

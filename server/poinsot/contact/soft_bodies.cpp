@@ -1,5 +1,9 @@
 #include "poinsot/contact/soft_bodies.h"
 
+#include <algorithm>
+
+#include <Eigen/LU>
+
 #include "poinsot/contact/soft_rotation.h"
 
 namespace poinsot {
@@ -37,46 +41,68 @@ Quat quat_of(const Lanes& turn) {
 
 void SoftBodies::start(std::span<const SoftBody> bodies, double h) {
   h_ = h;
-  work_ = start_energy_ = kinetic_change_ = 0;
-  hot_.assign(bodies.size() + 1, HotBody{});
-  masses_.assign(bodies.size() + 1, SoftMass{});
-  course_.assign(bodies.size() + 1, Course{});
-  turning_.clear();
-  torque_work_.assign(bodies.size(), 0);
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
+  count_ = bodies.size();
+  hot_.resize(count_ + 1);
+  masses_.resize(count_ + 1);
+  course_.resize(count_ + 1);
+  energy_.resize(count_);
+  torque_work_.resize(count_);
+  hot_[count_] = HotBody{};
+  masses_[count_] = SoftMass{};
+  course_[count_] = Course{};
+  int turning = 0;
+  for (std::size_t k = 0; k < count_; ++k) {
     const SoftBody& body = bodies[k];
-    Course& course = course_[k];
-    HotBody& hot = hot_[k];
-    hot.v = lanes_of(body.v);
-    hot.omega = lanes_of(body.omega);
-    if (!(body.inv_mass > 0)) {
-      course.kind = body.v.isZero(0) && body.omega.isZero(0) ? Kind::kFixed : Kind::kEven;
-      continue;
-    }
-    masses_[k].inv_mass = body.inv_mass;
-    course.kick_v = lanes_of(h * body.acceleration);
-    const Mat3 J_B = body.inv_J_B.inverse();
-    if (body.turns_evenly || !J_B.allFinite()) {
-      course.kind = Kind::kRound;
-      const Mat3 R = body.q.toRotationMatrix();
-      masses_[k].inv_J_W =
-          symmetric(body.turns_evenly ? body.inv_J_B : Mat3(R * body.inv_J_B * R.transpose()));
-    } else {
-      course.kind = Kind::kTurning;
-      course.turning = static_cast<int>(turning_.size());
-      const Mat3 R = body.q.toRotationMatrix();
-      masses_[k].inv_J_W = symmetric(R * body.inv_J_B * R.transpose());
-      turning_.push_back({body.q, body.L, body.torque, Vec3::Zero(), body.inv_J_B, J_B,
-                          R * J_B * R.transpose(), 0});
-    }
-    const Vec3 omega = times(masses_[k].inv_J_W, body.L);
-    hot.omega = lanes_of(omega);
-    if (course.kind == Kind::kTurning) turning_.back().synced_omega = omega;
-    course.kick_omega = lanes_of(h * times(masses_[k].inv_J_W, body.torque));
-    start_energy_ += 0.5 * (body.v.squaredNorm() / body.inv_mass + omega.dot(body.L));
-    course.predicted_v = hot.v;
-    course.predicted_omega = hot.omega;
+    Kind kind = Kind::kTurning;
+    if (!(body.inv_mass > 0))
+      kind = body.v.isZero(0) && body.omega.isZero(0) ? Kind::kFixed : Kind::kEven;
+    else if (body.turns_evenly || !(body.inv_J_B.determinant() > 0))  // or an axis is held
+      kind = Kind::kRound;
+    course_[k].kind = kind;
+    course_[k].turning = kind == Kind::kTurning ? turning++ : -1;
   }
+  turning_.resize(static_cast<std::size_t>(turning));
+}
+
+void SoftBodies::set(std::size_t piece, std::span<const SoftBody> bodies) {
+  const std::size_t end = std::min((piece + 1) * kPieceBodies, count_);
+  for (std::size_t k = piece * kPieceBodies; k < end; ++k) set(k, bodies[k]);
+}
+
+void SoftBodies::set(std::size_t k, const SoftBody& body) {
+  Course& course = course_[k];
+  HotBody& hot = hot_[k];
+  SoftMass& mass = masses_[k];
+  hot = {lanes_of(body.v), lanes_of(body.omega), Lanes{}, Lanes{0, 0, 0, 1}};
+  mass = SoftMass{};
+  energy_[k] = torque_work_[k] = 0;
+  course.has_turned = false;
+  if (course.kind < Kind::kRound) return;
+  mass.inv_mass = body.inv_mass;
+  if (body.turns_evenly) {
+    mass.inv_J_W = symmetric(body.inv_J_B);
+  } else {
+    const Mat3 R = body.q.toRotationMatrix();
+    mass.inv_J_W = symmetric(R * body.inv_J_B * R.transpose());
+    if (course.kind == Kind::kTurning) {
+      const Mat3 J_B = body.inv_J_B.inverse();
+      turning_[static_cast<std::size_t>(course.turning)] = {body.q,
+                                                            body.L,
+                                                            body.torque,
+                                                            times(mass.inv_J_W, body.L),
+                                                            body.inv_J_B,
+                                                            J_B,
+                                                            R * J_B * R.transpose(),
+                                                            0};
+    }
+  }
+  const Vec3 omega = times(mass.inv_J_W, body.L);
+  hot.omega = lanes_of(omega);
+  course.kick_v = lanes_of(h_ * body.acceleration);
+  course.kick_omega = lanes_of(h_ * times(mass.inv_J_W, body.torque));
+  course.predicted_v = hot.v;
+  course.predicted_omega = hot.omega;
+  energy_[k] = 0.5 * (body.v.squaredNorm() / body.inv_mass + omega.dot(body.L));
 }
 
 void SoftBodies::sync(Turning& turning, const HotBody& hot) const {
@@ -85,8 +111,9 @@ void SoftBodies::sync(Turning& turning, const HotBody& hot) const {
   turning.synced_omega = omega;
 }
 
-void SoftBodies::take_forces(std::size_t begin, std::size_t end) {
-  for (std::size_t k = begin; k < end; ++k) {
+void SoftBodies::take_forces(std::size_t piece) {
+  const std::size_t end = std::min((piece + 1) * kPieceBodies, count_);
+  for (std::size_t k = piece * kPieceBodies; k < end; ++k) {
     Course& course = course_[k];
     if (course.kind < Kind::kRound) continue;
     HotBody& hot = hot_[k];
@@ -99,8 +126,9 @@ void SoftBodies::take_forces(std::size_t begin, std::size_t end) {
   }
 }
 
-void SoftBodies::move(std::size_t begin, std::size_t end) {
-  for (std::size_t k = begin; k < end; ++k) {
+void SoftBodies::move(std::size_t piece) {
+  const std::size_t end = std::min((piece + 1) * kPieceBodies, count_);
+  for (std::size_t k = piece * kPieceBodies; k < end; ++k) {
     Course& course = course_[k];
     if (course.kind == Kind::kFixed) continue;
     HotBody& hot = hot_[k];
@@ -146,7 +174,7 @@ void SoftBodies::turn(std::size_t k) {
 }
 
 void SoftBodies::finish(std::span<SoftBody> bodies) {
-  double energy = 0;
+  work_ = kinetic_change_ = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     SoftBody& body = bodies[k];
     const Course& course = course_[k];
@@ -168,10 +196,10 @@ void SoftBodies::finish(std::span<SoftBody> bodies) {
     }
     body.v = vector_of(hot.v);
     body.omega = omega;
-    energy += 0.5 * (body.v.squaredNorm() / body.inv_mass + omega.dot(body.L));
+    kinetic_change_ +=
+        0.5 * (body.v.squaredNorm() / body.inv_mass + omega.dot(body.L)) - energy_[k];
     work_ += body.acceleration.dot(vector_of(hot.shift)) / body.inv_mass;
   }
-  kinetic_change_ = energy - start_energy_;
 }
 
 }  // namespace poinsot

@@ -18,15 +18,21 @@ namespace poinsot {
 
 class SoftBodies {
  public:
-  // `count` + 1 bodies are there for contacts: the last one stands for none.
+  static constexpr std::size_t kPieceBodies = 128;  // worth handing to another thread
+
+  // Then each piece is to be set.
   void start(std::span<const SoftBody> bodies, double h);
+  void set(std::size_t piece, std::span<const SoftBody> bodies);
   void finish(std::span<SoftBody> bodies);
 
-  // Of bodies [begin, end), once per sub-step each.
-  void take_forces(std::size_t begin, std::size_t end);
-  void move(std::size_t begin, std::size_t end);
+  std::size_t pieces() const { return (count_ + kPieceBodies - 1) / kPieceBodies; }
+  // Of a piece's bodies, once per sub-step each.
+  void take_forces(std::size_t piece);
+  void move(std::size_t piece);
 
+  // The one after the last stands for none.
   HotBody* hot() { return hot_.data(); }
+  const HotBody* hot() const { return hot_.data(); }
   const SoftMass* masses() const { return masses_.data(); }
   bool moves(int k) const {
     return course_[static_cast<std::size_t>(k)].kind != Kind::kFixed &&
@@ -62,14 +68,16 @@ class SoftBodies {
   };
   void turn(std::size_t k);
   void sync(Turning& turning, const HotBody& hot) const;
-  double kinetic_energy(const SoftBody& body, std::size_t k) const;
 
-  double h_ = 0, start_energy_ = 0, work_ = 0, kinetic_change_ = 0;
+  void set(std::size_t k, const SoftBody& body);
+
+  double h_ = 0, work_ = 0, kinetic_change_ = 0;
+  std::size_t count_ = 0;
   std::vector<HotBody> hot_;
   std::vector<SoftMass> masses_;
   std::vector<Course> course_;
   std::vector<Turning> turning_;
-  std::vector<double> torque_work_;  // [J] of each body
+  std::vector<double> energy_, torque_work_;  // [J] of each body: kinetic at the start; of torques
 };
 
 }  // namespace poinsot

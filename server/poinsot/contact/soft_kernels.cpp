@@ -7,10 +7,6 @@ struct Pair {
   Vec3Lanes v_a, omega_a, v_b, omega_b;
 };
 
-POINSOT_INLINE Lanes velocity_of(const HotBody& body) {
-  return body.v;
-}
-
 POINSOT_INLINE void gather(const HotBody* bodies, const std::array<int, kLanes>& index,
                            Lanes HotBody::*member, Vec3Lanes& to, Lanes& w) {
   to.x = bodies[index[0]].*member;
@@ -91,18 +87,65 @@ POINSOT_INLINE void spread(const SoftBlock& block, int from, Lanes change, Lanes
     velocity[to] += block.point_point[kIndex[from][to]] * change;
 }
 
-// One pass over the points: each is given the impulse that makes its velocity `target`, or none.
-// Soft points are given a part of it and lose a part of what they have.
+// Before points are solved one by one: what all of them lack, or have too much, is given to all
+// alike, so that a flat impact hardly turns a body. Only where it is more than resting points ever
+// have: their balance is left to the softer way below.
 template <int count>
-POINSOT_INLINE Push solve_points(SoftBlock& block, Lanes* velocity, const Lanes* target,
-                                 double give, double fade) {
-  Push push = {};
+POINSOT_INLINE void solve_impact(SoftBlock& block, Lanes* velocity, const Lanes* target,
+                                 const SoftRates& rates, Push& push) {
+  Lanes most = velocity[0] - target[0], least = most, spare = block.points[0].impulse;
+  for (int i = 1; i < count; ++i) {
+    const SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
+    most = larger(most, velocity[i] - target[i]);
+    least = smaller(least, velocity[i] - target[i]);
+    spare = smaller(spare, point.impulse);
+  }
+  const Lanes reach = block.near * rates.inv_h;
+  const Lanes lack = most < -reach ? -most : Lanes{}, excess = least > reach ? least : Lanes{};
+  const Lanes change = larger(block.inv_heave * (lack - excess), -spare);
   for (int i = 0; i < count; ++i) {
     SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
-    const LaneMask soft = point.gap < 0.0;
-    const Lanes stop = point.inv_response * (velocity[i] - target[i]);
+    point.impulse += change;
+    velocity[i] += point.heave * change;
+    add(push, point, change);
+  }
+}
+
+// One pass over the points: each is given the impulse that makes its velocity `target`, or none.
+template <int count>
+POINSOT_INLINE Push solve_points(SoftBlock& block, Lanes* velocity, const Lanes* target,
+                                 const SoftRates& rates) {
+  Push push = {};
+  if constexpr (count > 1) solve_impact<count>(block, velocity, target, rates, push);
+  for (int i = 0; i < count; ++i) {
+    SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
     const Lanes impulse =
-        positive_part(point.impulse - (soft ? give * stop + fade * point.impulse : stop));
+        positive_part(point.impulse - point.inv_response * (velocity[i] - target[i]));
+    const Lanes change = impulse - point.impulse;
+    point.impulse = impulse;
+    spread<count>(block, i, change, velocity);
+    add(push, point, change);
+  }
+  return push;
+}
+
+// The same with softness: points that rest are given more, as far as that does not lift them off,
+// and let go part of what exceeds their usual load.
+template <int count>
+POINSOT_INLINE Push solve_soft_points(SoftBlock& block, Lanes* velocity, const Lanes* target,
+                                      const SoftRates& rates) {
+  const Lanes reach = block.near * rates.inv_h;
+  Push push = {};
+  if constexpr (count > 1) solve_impact<count>(block, velocity, target, rates, push);
+  for (int i = 0; i < count; ++i) {
+    SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
+    const LaneMask rests = point.gap <= block.near;
+    const Lanes off = velocity[i] - target[i];
+    const Lanes more = block.overshoot * larger(-reach, smaller(reach, off));
+    const Lanes less = rates.fade * (point.impulse - point.load);
+    const Lanes firm = point.impulse - point.inv_response * off;
+    const Lanes soft = firm - point.inv_response * more - less;
+    const Lanes impulse = positive_part(rests ? soft : firm);
     const Lanes change = impulse - point.impulse;
     point.impulse = impulse;
     spread<count>(block, i, change, velocity);
@@ -121,6 +164,16 @@ POINSOT_INLINE void respond_count(SoftBlock& block) {
     const Lanes own = point_velocity(point, response[i]);
     point.inv_response = own > 0.0 ? 1.0 / own : Lanes{};
   }
+  Push all = {};
+  for (int i = 0; i < count; ++i) add(all, block.points[static_cast<std::size_t>(i)], all_lanes(1));
+  const Vec3Lanes lift = P * Vec3Lanes{all.force, all.about_1, all.about_2};
+  Lanes most = {};
+  for (int i = 0; i < count; ++i) {
+    SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
+    point.heave = point_velocity(point, lift);
+    most = larger(most, point.heave);
+  }
+  block.inv_heave = most > 0.0 ? 1.0 / most : Lanes{};
   int k = 0;
   for (int i = 0; i < SoftBlock::kPoints; ++i)
     for (int j = i + 1; j < SoftBlock::kPoints; ++j, ++k)
@@ -229,10 +282,14 @@ POINSOT_INLINE void warm_start_block(SoftBlock& block, HotBody* bodies) {
         block.n * block.twist + (block.t1 * push.about_1 + block.t2 * push.about_2), pair, bodies);
 }
 
-// Speed at which a point shall move: apart points may meet, others are moved apart.
+// Speeds at which points are moved apart, and at which they may meet: nearly touching, as slowly.
 POINSOT_INLINE Lanes push_out(const SoftBlock& block, Lanes gap, const SoftRates& rates) {
   return smaller(positive_part(-gap - block.slop) * rates.push_out_rate,
                  all_lanes(rates.push_out_speed));
+}
+POINSOT_INLINE Lanes meet(const SoftBlock& block, Lanes gap, const SoftRates& rates) {
+  return larger(positive_part(gap) * rates.push_out_rate,
+                (gap - block.near) * rates.inv_h + block.near * rates.push_out_rate);
 }
 
 template <int count>
@@ -241,12 +298,12 @@ POINSOT_INLINE void push_count(SoftBlock& block, HotBody* bodies, const SoftRate
   const Vec3Lanes push = push_part(block, twist_of(block, pair));
   Lanes velocity[count], target[count];
   for (int i = 0; i < count; ++i) {
-    const SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
+    SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
+    point.load += rates.learn * (point.impulse - point.load);
     velocity[i] = point_velocity(point, push);
-    target[i] = point.gap > 0.0 ? -point.gap * rates.inv_h : push_out(block, point.gap, rates);
+    target[i] = push_out(block, point.gap, rates) - meet(block, point.gap, rates);
   }
-  apply_push(block, solve_points<count>(block, velocity, target, rates.give, rates.fade), pair,
-             bodies);
+  apply_push(block, solve_soft_points<count>(block, velocity, target, rates), pair, bodies);
 }
 
 // (Rᵀ − 1) n for the rotation of a unit quaternion with vector part u.
@@ -341,9 +398,9 @@ POINSOT_INLINE void relax_count(SoftBlock& block, HotBody* bodies, const SoftRat
   for (int i = 0; i < count; ++i) {
     const SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
     velocity[i] = point_velocity(point, push);
-    target[i] = -positive_part(point.gap) * rates.inv_h;
+    target[i] = -positive_part(point.gap - block.near) * rates.inv_h;
   }
-  const Push change = solve_points<count>(block, velocity, target, 1, 0);
+  const Push change = solve_points<count>(block, velocity, target, rates);
   const Vec3Lanes jump = block.push_push * Vec3Lanes{change.force, change.about_1, change.about_2};
   Lanes residual = {};
   for (int i = 0; i < count; ++i) {
@@ -357,23 +414,29 @@ POINSOT_INLINE void relax_count(SoftBlock& block, HotBody* bodies, const SoftRat
         bodies);
 }
 
-// Points that were pushed and had approached leave as fast as their restitution says.
+// Points that were pushed and had approached leave as fast as their restitution says. The impulses
+// are gone after it: no guess for what comes.
 POINSOT_INLINE void bounce_block(SoftBlock& block, HotBody* bodies, const SoftRates& rates) {
+  constexpr int kRounds = 12;  // the points of one manifold settle among themselves
   Pair pair = gather(block, bodies);
   Vec3Lanes push = push_part(block, twist_of(block, pair));
   Push sum = {};
+  Lanes given[SoftBlock::kPoints] = {};
+  for (int round = 0; round < kRounds; ++round) {
+    for (int i = 0; i < block.count; ++i) {
+      const SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
+      const LaneMask bounces = (point.approach < -rates.rest_speed) & (point.peak > 0.0);
+      const Lanes off = point_velocity(point, push) + block.restitution * point.approach;
+      const Lanes all = positive_part(given[i] - point.inv_response * off);
+      const Lanes change = bounces ? all - given[i] : Lanes{};
+      given[i] += change;
+      push = push + block.push_push * Vec3Lanes{change, point.y * change, -point.x * change};
+      add(sum, point, change);
+    }
+  }
   for (int i = 0; i < block.count; ++i) {
     SoftPointLanes& point = block.points[static_cast<std::size_t>(i)];
-    const LaneMask bounces = (point.approach < -rates.rest_speed) & (point.peak > 0.0);
-    const Lanes wanted = -block.restitution * point.approach;
-    Lanes impulse = positive_part(point.inv_response * (wanted - point_velocity(point, push)));
-    impulse = bounces ? impulse : Lanes{};
-    const Vec3Lanes jump =
-        block.push_push * Vec3Lanes{impulse, point.y * impulse, -point.x * impulse};
-    push = push + jump;
-    add(sum, point, impulse);
-    // It is gone: its impulse is no guess for what comes.
-    point.impulse = impulse > 0.0 ? Lanes{} : point.impulse;
+    point.impulse = given[i] > 0.0 ? Lanes{} : point.impulse;
   }
   apply_push(block, sum, pair, bodies);
 }

@@ -36,7 +36,9 @@ struct SoftPointLanes {
   Lanes gap;           // [m]
   Lanes start_gap;     // [m] at the start of the step
   Lanes impulse;       // [N·s]
+  Lanes load;          // [N·s] its mean for long
   Lanes inv_response;  // [kg]
+  Lanes heave;         // [1/kg] change of its velocity by one impulse on every point
   Lanes approach;      // [m/s] relative normal velocity at the start of the step
   Lanes peak;          // [N·s] largest impulse so far
 };
@@ -59,8 +61,11 @@ struct alignas(64) SoftBlock {
   Lanes push_drag[3][3];                        // of push to a wrench of drag
   Lanes point_point[6];                         // 01 02 03 12 13 23
   Lanes inv_drag_11, inv_drag_12, inv_drag_22;  // [kg]
+  Lanes inv_heave;                              // [kg]
   Lanes slip_gain, inv_twist;                   // [kg], [kg·m²]
-  Lanes friction, restitution, slop;
+  Lanes friction, restitution;
+  Lanes slop, near;  // [m]
+  Lanes overshoot;   // [-] of the impulse that would stop a resting point; below 0: it is softer
   Lanes drag_1 = {}, drag_2 = {}, twist = {};  // [N·s], [N·s], [N·m·s]
   std::array<SoftPointLanes, kPoints> points;
 
@@ -73,9 +78,8 @@ struct SoftRates {
   double push_out_rate;   // [1/s]
   double push_out_speed;  // [m/s]
   double rest_speed;      // [m/s]
-  // Of a point that penetrates: parts of the impulse that would stop it, and of the whole that is
-  // let go.
-  double give, fade;
+  double rolling_arm;     // [m]
+  double fade, learn;     // [-] see soft_blocks.cpp
 };
 
 struct SoftKernels {

@@ -33,8 +33,16 @@ POINSOT_INLINE Lanes larger(Lanes x, Lanes y) {
 POINSOT_INLINE Lanes magnitude(Lanes x) {
   return x < 0.0 ? -x : x;
 }
+// By halves: std::sqrt would call a function where an argument is negative.
 POINSOT_INLINE Lanes root(Lanes x) {
+#ifdef __x86_64__
+  using Half = double __attribute__((vector_size(16)));
+  const Half low = __builtin_ia32_sqrtpd(Half{x[0], x[1]});
+  const Half high = __builtin_ia32_sqrtpd(Half{x[2], x[3]});
+  return Lanes{low[0], low[1], high[0], high[1]};
+#else
   return Lanes{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
+#endif
 }
 
 struct Vec3Lanes {

@@ -20,12 +20,14 @@ namespace poinsot {
 inline Quat turn_by(const Vec3& angle) {
   constexpr double kSeries =
       0.0625;  // [rad²] square of half an angle, below which a series is exact
+  constexpr double kCosine_5 = -1.0 / 3628800, kSine_5 = -1.0 / 39916800;
   constexpr double kFarthest = 1e10;  // [rad²] beyond, the direction has lost its meaning
   const double x = 0.25 * angle.squaredNorm();
   if (x < kSeries) {
     const double cosine =
-        1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90 * (1 - x / 132)))));
-    const double sine = 1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72 * (1 - x / 110))));
+        1 + x * (-1.0 / 2 + x * (1.0 / 24 + x * (-1.0 / 720 + x * (1.0 / 40320 + x * kCosine_5))));
+    const double sine =
+        1 + x * (-1.0 / 6 + x * (1.0 / 120 + x * (-1.0 / 5040 + x * (1.0 / 362880 + x * kSine_5))));
     const Vec3 u = (0.5 * sine) * angle;
     return Quat(cosine, u.x(), u.y(), u.z());
   }
@@ -42,9 +44,9 @@ inline Quat free_turn(const Vec3& M, const Mat3& inv_J_B, double h) {
   const Vec3 M1 = M.cross(w), w1 = inv_J_B * M1;
   const Vec3 M2 = M1.cross(w) + M.cross(w1), w2 = inv_J_B * M2;
   const Vec3 M3 = M2.cross(w) + 2 * M1.cross(w1) + M.cross(w2), w3 = inv_J_B * M3;
-  const Vec3 rate = w + (h / 2) * (w1 + (h / 3) * (w2 + (h / 4) * w3));
+  const Vec3 rate = w + (h / 2) * (w1 + (h * (1.0 / 3)) * (w2 + (h / 4) * w3));
   const Vec3 bend = w.cross(w1 + (h / 2) * w2);
-  return turn_by(h * (rate + (h * h / 12) * bend));
+  return turn_by(h * (rate + (h * h * (1.0 / 12)) * bend));
 }
 
 // The orientation after h [s] of a body with angular momentum L in W.

@@ -1,19 +1,72 @@
 #include "poinsot/contact/soft_step.h"
 
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
-#include "poinsot/contact/contact_colors.h"
 #include "poinsot/contact/soft_blocks.h"
 #include "poinsot/contact/soft_bodies.h"
 #include "poinsot/contact/soft_joints.h"
 
 namespace poinsot {
+namespace {
+
+// What all threads do together, one after another.
+enum class Work {
+  kSetBodies,
+  kPack,
+  kForces,
+  kWarmJoints,
+  kWarmStart,
+  kJoints,
+  kPush,
+  kMove,
+  kLevelJoints,
+  kRelax,
+  kBounce
+};
+
+}  // namespace
 
 struct SoftStep::Scratch {
   SoftBodies bodies;
   SoftBlocks blocks;
   SoftJoints joints;
+  // The plan of a step: what is done, in which run of blocks, and in how many pieces.
+  struct Stage {
+    Work work;
+    std::size_t run;
+  };
+  std::vector<Stage> stages;
+  std::vector<std::size_t> pieces;
+
+  void add(Work work, std::size_t count) {
+    stages.push_back({work, 0});
+    pieces.push_back(count);
+  }
+  void add_sweep(Work work) {
+    for (std::size_t run = 0; run < blocks.runs(); ++run) {
+      stages.push_back({work, run});
+      pieces.push_back(blocks.pieces(run));
+    }
+  }
+  void plan(int steps, bool has_joints) {
+    stages.clear();
+    pieces.clear();
+    add(Work::kSetBodies, bodies.pieces());
+    add(Work::kPack, blocks.pack_pieces());
+    for (int step = 0; step < steps; ++step) {
+      add(Work::kForces, bodies.pieces());
+      if (step == 0) {
+        if (has_joints) add(Work::kWarmJoints, 1);
+        add_sweep(Work::kWarmStart);
+      }
+      if (has_joints) add(Work::kJoints, 1);
+      add_sweep(Work::kPush);
+      add(Work::kMove, bodies.pieces());
+      if (has_joints) add(Work::kLevelJoints, 1);
+      add_sweep(Work::kRelax);
+    }
+    add_sweep(Work::kBounce);
+  }
 };
 
 SoftStep::SoftStep() : scratch_(std::make_unique<Scratch>()) {}
@@ -23,27 +76,40 @@ SoftStep& SoftStep::operator=(SoftStep&&) noexcept = default;
 
 SoftOutcome SoftStep::advance(std::span<SoftBody> bodies, std::span<SoftManifold> manifolds,
                               std::span<PointJoint> joints, double duration,
-                              const SoftSettings& settings, Team&) {
+                              const SoftSettings& settings, Team& team) {
   const double h = duration / settings.steps;
   Scratch& s = *scratch_;
   s.bodies.start(bodies, h);
-  s.blocks.start(bodies, manifolds, s.bodies, settings, h);
+  s.blocks.start(bodies, manifolds, settings, h);
   s.joints.start(bodies, joints);
-  s.blocks.note_approach(s.bodies);
-  const std::size_t count = bodies.size();
-  for (int step = 0; step < settings.steps; ++step) {
-    s.bodies.take_forces(0, count);
-    if (step == 0) {
-      s.joints.warm_start(joints, s.bodies);
-      s.blocks.warm_start(s.bodies);
+  s.plan(settings.steps, !joints.empty());
+  team.run_stages(s.pieces, [&](std::size_t stage, std::size_t piece, int) {
+    const std::size_t run = s.stages[stage].run;
+    switch (s.stages[stage].work) {
+      case Work::kSetBodies:
+        return s.bodies.set(piece, bodies);
+      case Work::kPack:
+        return s.blocks.pack(piece, bodies, manifolds, s.bodies);
+      case Work::kForces:
+        return s.bodies.take_forces(piece);
+      case Work::kWarmJoints:
+        return s.joints.warm_start(joints, s.bodies);
+      case Work::kWarmStart:
+        return s.blocks.warm_start(s.bodies, run, piece);
+      case Work::kJoints:
+        return s.joints.solve(joints, s.bodies, true);
+      case Work::kPush:
+        return s.blocks.push(s.bodies, run, piece);
+      case Work::kMove:
+        return s.bodies.move(piece);
+      case Work::kLevelJoints:
+        return s.joints.solve(joints, s.bodies, false);
+      case Work::kRelax:
+        return s.blocks.relax(s.bodies, run, piece);
+      case Work::kBounce:
+        return s.blocks.bounce(s.bodies, run, piece);
     }
-    s.joints.solve(joints, s.bodies, true);
-    s.blocks.push(s.bodies);
-    s.bodies.move(0, count);
-    s.joints.solve(joints, s.bodies, false);
-    s.blocks.relax(s.bodies);
-  }
-  s.blocks.bounce(s.bodies);
+  });
   s.bodies.finish(bodies);
   SoftOutcome outcome;
   s.blocks.finish(manifolds, outcome);

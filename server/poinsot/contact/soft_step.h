@@ -38,15 +38,19 @@ struct SoftBody {
 struct SoftManifold {
   static constexpr int kMaxPoints = 4;
 
-  int a, b;     // bodies; one of them may be immovable
-  int count;    // of points, ≥ 1
-  Vec3 normal;  // unit, in W, from b to a
+  int a = 0, b = 0;             // bodies; one of them may be immovable
+  int count = 0;                // of points, ≥ 1
+  Vec3 normal = Vec3::UnitZ();  // unit, in W, from b to a
   double friction = 0, restitution = 0;
   double size = 0;  // [m] of the pair: what its tolerances are relative to
   struct Point {
-    Vec3 arm_a, arm_b;          // [m] in W from c to the point on either surface
+    Vec3 arm_a = Vec3::Zero(),
+         arm_b = Vec3::Zero();  // [m] in W from c to the point on either surface
     double gap = 0;             // [m] at the start of the step, along the normal
     double normal_impulse = 0;  // [N·s] of a sub-step: start of the next step, and result
+    // [N·s] Its mean over hundreds of sub-steps, likewise: what it is not let go below. A point
+    // that forgets it sags under its load.
+    double usual_impulse = 0;
   } points[kMaxPoints];
   Vec3 friction_impulse = Vec3::Zero();  // [N·s] on a, in W, perpendicular to the normal, likewise
   double twist_impulse = 0;              // [N·m·s] on a about the normal, likewise

@@ -7,7 +7,9 @@
 namespace poinsot {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 Vec3 velocity(const ContactBody& body, const Vec3& point) {
   return body.v + body.omega.cross(point - body.c);
@@ -48,8 +50,8 @@ void measure_contact(const ContactBody& a, const ContactBody& b, const Contact& 
   result.normal = std::max(result.normal, normal);
 
   Vec3 t = n.cross(Vec3::Unit(std::abs(n.x()) < 0.5 ? 0 : 1)).normalized();
-  const double wt = 0.5 * (inverse_mass(a, b, contact.point, t) +
-                           inverse_mass(a, b, contact.point, n.cross(t)));
+  const double wt =
+      0.5 * (inverse_mass(a, b, contact.point, t) + inverse_mass(a, b, contact.point, n.cross(t)));
   const Vec3 wanted = wt * contact.friction_impulse - vt;
   const double limit = wt * contact.friction * std::max(0.0, contact.normal_impulse);
   const double length = wanted.norm();
@@ -60,7 +62,9 @@ void measure_contact(const ContactBody& a, const ContactBody& b, const Contact& 
 
 }  // namespace
 
-double SolveResidual::worst() const { return std::max({normal, friction, joint, balance}); }
+double SolveResidual::worst() const {
+  return std::max({normal, friction, joint, balance});
+}
 
 SolveResidual measure_residual(std::span<const ContactBody> before,
                                std::span<const ContactBody> after,
@@ -92,10 +96,10 @@ SolveResidual measure_residual(std::span<const ContactBody> before,
     const ContactBody& body = before[i];
     const Vec3 v = after[i].v - body.v, omega = after[i].omega - body.omega;
     if (!std::isfinite(v.sum() + omega.sum())) continue;
-    const double error = body.inv_mass > 0
-                             ? (v - body.inv_mass * pushes[i].impulse).norm() +
-                                   pushes[i].reach * (omega - body.inv_J_W * pushes[i].moment).norm()
-                             : v.norm() + pushes[i].reach * omega.norm();
+    const double error =
+        body.inv_mass > 0 ? (v - body.inv_mass * pushes[i].impulse).norm() +
+                                pushes[i].reach * (omega - body.inv_J_W * pushes[i].moment).norm()
+                          : v.norm() + pushes[i].reach * omega.norm();
     result.balance = std::max(result.balance, error);
   }
   return result;

@@ -17,13 +17,13 @@
 namespace poinsot {
 
 struct SolveResidual {
-  double normal = 0;    // [m/s] largest |min(λn w, vn − target)|, w: inverse effective mass
+  double normal = 0;  // [m/s] largest |min(λn w, vn − target)|, w: inverse effective mass
   double friction = 0;  // [m/s] largest distance of w λt from the point of the disc |·| ≤ w μ λn
                         // that is nearest to w λt − vt
-  double joint = 0;     // [m/s] largest relative velocity of a joint beside its target
-  double balance = 0;   // [m/s] largest |v − v* − M⁻¹Jᵀλ|, at a body's centre or its contacts
-  int iterations = 0;   // of Newton's method, all passes together
-  int passes = 0;       // proximal and de Saxcé
+  double joint = 0;  // [m/s] largest relative velocity of a joint beside its target
+  double balance = 0;  // [m/s] largest |v − v* − M⁻¹Jᵀλ|, at a body's centre or its contacts
+  int iterations = 0;  // of Newton's method, all passes together
+  int passes = 0;      // proximal and de Saxcé
   int factorisations = 0;
   bool converged = false;
 
