@@ -94,7 +94,7 @@ double reversal(const Scene& scene, double spin, double end) {
 
 TEST(HardRolling, ARattlebackReversesOneSenseOfSpinOnly) {
   const test::RollingEllipsoid celt = rattleback();
-  constexpr double kEnd = 2;  // [s]
+  constexpr double kEnd = 1.5;  // [s]
   const double found = reversal(spun(celt, -5, Profile::accurate), -5, kEnd);
   test::measured("reversal_s", found);
   EXPECT_GT(found, 0);
