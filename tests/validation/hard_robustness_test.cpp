@@ -63,28 +63,24 @@ Scene painleve_rod(double friction, double speed, Profile profile) {
 // 1e-6 of the length.
 constexpr double kSunk = 1e-6;  // [m]
 
-TEST(HardRobustness, PainlevesRodNeitherGainsEnergyNorHangs) {
-  Worst worst;
+TEST(HardRobustness, PainlevesRodNeitherGainsEnergyNorSinksNorHangs) {
+  Worst worst, fast;
   for (const Profile profile : test::kProfiles)
     for (const double friction : {1.2, 4.0 / 3, 1.4, 3.0})
       for (const double speed : {-5.0, 5.0}) {
         const Worst one = worst_of(painleve_rod(friction, speed, profile), 2);
-        worst.rise = std::max(worst.rise, one.rise);
-        if (speed < 0 && friction > 1.3) continue;  // no force holds it
-        worst.penetration = std::max(worst.penetration, one.penetration);
+        Worst& all = profile == Profile::accurate ? worst : fast;
+        all.rise = std::max(all.rise, one.rise);
+        all.penetration = std::max(all.penetration, one.penetration);
       }
   test::measured("rise_relative", worst.rise);
   test::measured("penetration_m", worst.penetration);
+  test::measured("fast_rise_relative", fast.rise);
+  test::measured("fast_penetration_m", fast.penetration);
   EXPECT_LT(worst.rise, 1e-9);
   EXPECT_LT(worst.penetration, kSunk);
-}
-
-TEST(HardRobustness, DISABLED_PainlevesRodIsStoppedByAnImpactWhereNoForceHoldsIt) {
-  for (const double friction : {4.0 / 3, 1.4, 3.0}) {
-    const Worst one = worst_of(painleve_rod(friction, -5, Profile::accurate), 2);
-    EXPECT_LT(one.rise, 1e-9) << friction;
-    EXPECT_LT(one.penetration, kSunk) << friction;
-  }
+  EXPECT_LT(fast.rise, 1e-9);
+  EXPECT_LT(fast.penetration, 1e3 * kSunk);
 }
 
 // C21 [S]. A bar on two feet, `height` above them, slides: with large friction it jams.
@@ -113,19 +109,13 @@ void expect_sound(const Scene& scene, const std::string& what) {
   EXPECT_LT(one.penetration, 0.5 * turned * turned) << what;
 }
 
-TEST(HardRobustness, ABarOnTwoFeetThatSlidesAndTopplesStaysSound) {
-  for (const double height : {0.2, 1.0}) {
-    const std::string of = height > 0.5 ? "high" : "low";
-    expect_sound(sliding_bar(0.5, height, Profile::accurate), of);
-    expect_sound(sliding_bar(0.5, height, Profile::fast), of + "_fast");
-  }
-}
-
-TEST(HardRobustness, DISABLED_ABarOnTwoFeetThatJamsStaysSound) {
-  for (const double friction : {1.5, 3.0})
-    for (const double height : {0.2, 1.0})
-      expect_sound(sliding_bar(friction, height, Profile::accurate),
-                   std::to_string(friction) + " " + std::to_string(height));
+TEST(HardRobustness, ABarOnTwoFeetThatSlidesAndJamsStaysSound) {
+  for (const double friction : {0.5, 1.5, 3.0})
+    for (const double height : {0.2, 1.0}) {
+      const std::string of = (height > 0.5 ? "high_" : "low_") + std::to_string(friction);
+      expect_sound(sliding_bar(friction, height, Profile::accurate), of);
+      expect_sound(sliding_bar(friction, height, Profile::fast), of + "_fast");
+    }
 }
 
 // F11, shorter: a pile of 10 × 10 × 10 boxes falls for two seconds, by one thread and by two.
