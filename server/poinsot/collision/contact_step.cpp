@@ -15,7 +15,8 @@ constexpr double kRestingSteps = 2.0;
 
 ContactStep::ContactStep(const CollisionDef& def) : def_(def) {}
 
-void ContactStep::begin(const CollisionState& state, double h, double usual, bool foresees) {
+void ContactStep::begin(const CollisionState& state, double h, double usual, bool foresees,
+                        bool stops) {
   for (const Eigen::Index column : columns_) local_of_[static_cast<std::size_t>(column)] = -1;
   local_of_.resize(static_cast<std::size_t>(state.world().size()), -1);
   h_ = h;
@@ -23,6 +24,8 @@ void ContactStep::begin(const CollisionState& state, double h, double usual, boo
   slip_ = {};
   residual_ = {};
   foresees_ = foresees;
+  stops_ = stops;
+  stopped_ = false;
   awaited_.clear();
   columns_.clear();
   travel_.clear();

@@ -40,8 +40,11 @@ class ContactStep {
 
   // Of the pairs that follow. If impacts are not foreseen, points on their way in are awaited, and
   // the sub-step is made shorter: to `usual` unless everything rests, further where that keeps the
-  // error of positions below the scene's tolerance, and to when a sliding pair comes to rest.
-  void begin(const CollisionState& state, double h, double usual, bool foresees);
+  // error of positions below the scene's tolerance, and, if it `stops` for that, to when a sliding
+  // pair comes to rest.
+  void begin(const CollisionState& state, double h, double usual, bool foresees, bool stops);
+  // Whether the sub-step ends where a sliding pair came to rest.
+  bool stopped() const { return stopped_; }
   // [s] of the sub-step that was solved.
   double duration() const { return h_; }
   void add(CollisionState& state, int record);
@@ -93,7 +96,7 @@ class ContactStep {
   double shorter(const CollisionState& state, double h);
   double while_turning(const CollisionState& state, double h,
                        std::span<const ContactBody> bodies) const;
-  double end_of_slip(double h);
+  double end_of_slip(const CollisionState& state, double h);
   double inverse_mass(const Contact& contact, const Vec3& point, const Vec3& direction) const;
   void scale_impulses(double by);
   void set_duration(CollisionState& state, double h);
@@ -104,7 +107,7 @@ class ContactStep {
   CollisionDef def_;
   ConvexNewton solver_;
   double h_ = 0, usual_ = 0;
-  bool foresees_ = true;
+  bool foresees_ = true, stops_ = false, stopped_ = false;
   std::vector<Awaited> awaited_;
   std::vector<int> local_of_;          // per column; −1: none
   std::vector<Eigen::Index> columns_;  // per local body

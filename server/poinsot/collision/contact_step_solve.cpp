@@ -13,10 +13,13 @@ constexpr double kRestingSteps = 2.0;
 constexpr double kImpactSteps = 0.25;
 // Planes of contact hold while the bodies turn their surfaces by less than this of the size.
 constexpr double kTurned = 0.15;
+// Of the speed at which penetration is removed: how well it is met.
+constexpr double kPushedOut = 1e-3;
 // No less than this of the usual sub-step, however fast bodies turn where they touch.
 constexpr double kLeastTurn = 1.0 / 64;
-// Slower slips are at rest [m/s]; and nothing shorter than this of a sub-step is stopped for.
-constexpr double kNoSlip = 1e-10;
+// A slip that goes no farther than this of the tolerance in a sub-step is rest; and nothing shorter
+// than kLeastSlip of a sub-step is stopped for.
+constexpr double kNoSlip = 1e-2;
 constexpr double kLeastSlip = 1e-6;
 // A pair that comes to rest at the end of a sub-step has full friction to this, relative.
 constexpr double kFullSlip = 1e-7;
@@ -157,7 +160,10 @@ void ContactStep::push_out(CollisionState& state, Books& books) {
     body.v.setZero();
     body.omega.setZero();
   }
+  const double tolerance = solver_.tolerance;
+  solver_.tolerance = kPushedOut * *std::max_element(target_.begin(), target_.end());
   solver_.push_out(bodies_, contacts_, target_);
+  solver_.tolerance = tolerance;
   for (Contact& contact : contacts_) contact.gap += h_ * relative_speed(contact, bodies_);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];
@@ -311,7 +317,10 @@ double ContactStep::shorter(const CollisionState& state, double h) {
   constexpr double kMuchTooLong = 0.5;  // of h: less is left to the next sub-step
   const double turning = while_turning(state, h, bodies_);
   if (turning < kMuchTooLong * h) return turning;
-  return end_of_slip(h);
+  if (!stops_) return h;
+  const double end = end_of_slip(state, h);
+  stopped_ = stopped_ || end < h;
+  return end;
 }
 
 // While bodies with corners turn about where they touch, these leave the planes of contact by the
@@ -336,7 +345,7 @@ double ContactStep::while_turning(const CollisionState& state, double h,
 
 // When the first sliding pair comes to rest, if that is within h: there its friction stops being
 // that of sliding. While it slides the force it would take to stop it within h is linear in 1/h.
-double ContactStep::end_of_slip(double h) {
+double ContactStep::end_of_slip(const CollisionState& state, double h) {
   double end = h;
   Slip first;
   for (std::size_t r = 0; r < records_.size(); ++r) {
@@ -355,7 +364,9 @@ double ContactStep::end_of_slip(double h) {
     }
     if (count == 0 || limit <= 0) continue;
     const double speed = slip.norm() / count;
-    if (speed <= kNoSlip || slip_after.norm() / count > kNoSlip) continue;
+    const double rest = kNoSlip * def_.contact_tolerance *
+                        state.pairs.records()[static_cast<std::size_t>(records_[r])].size / h;
+    if (speed <= rest || slip_after.norm() / count > rest) continue;
     const double excess = -friction.dot(slip) / slip.norm() - limit;
     if (excess >= -kFullSlip * limit) continue;  // it ends here
     const Slip now{static_cast<int>(r), 1 / h, excess};

@@ -16,6 +16,15 @@ constexpr double kFramesAhead = 4;
 constexpr std::size_t kTogether = 64;
 // A larger island is too dear for a direct solver: some hundred milliseconds a frame.
 constexpr std::size_t kMostDirect = 400;
+// Fewer are solved directly even if that accuracy is not asked for: it costs no more.
+constexpr std::size_t kFewDirect = 4;
+
+// Whether another point of the surface comes under the normal (in S) as the body turns.
+bool is_round(const Collider& collider, const Vec3& normal) {
+  constexpr double kSide = 0.5;  // of a cylinder or cone: its base is flat
+  if (collider.core_radius > 0 || std::holds_alternative<Ellipsoid>(collider.shape)) return true;
+  return collider.is_curved && std::abs(normal.z()) < kSide;
+}
 
 template <class Task>
 void run_chunks(Team& team, std::size_t count, const Task& task) {
@@ -126,7 +135,9 @@ bool Crowd::takes(const CollisionState& state, const Island& island, double dura
     if (travel(state, i, angular_velocity(world, i), duration) > kLook * size) return false;
   }
   if (island.bodies.size() > kMostDirect) return true;
-  return stands && state.def.contact_tolerance >= 1e-4;
+  constexpr double kSoftTolerance = 1e-4;  // what soft_step may reach in easy islands
+  return stands && island.bodies.size() > kFewDirect &&
+         state.def.contact_tolerance >= kSoftTolerance;
 }
 
 // How often what is near is looked at.
@@ -276,6 +287,10 @@ void Crowd::fill(CollisionState& state, Team& team) {
     m.b = local_[static_cast<std::size_t>(record.b)];
     m.count = contact.count;
     m.normal = R_a * contact.normal_in_a;
+    m.round_a =
+        is_round(state.colliders[static_cast<std::size_t>(record.pair.a)], contact.normal_in_a);
+    m.round_b = is_round(state.colliders[static_cast<std::size_t>(record.pair.b)],
+                         pose_b.q.conjugate() * m.normal);
     m.friction = record.friction;
     m.restitution = record.restitution;
     m.size = record.size;
@@ -290,6 +305,7 @@ void Crowd::fill(CollisionState& state, Team& team) {
       point.arm_b = from_b + on_b;
       point.gap = m.normal.dot(apart + on_a - on_b);
       point.normal_impulse = p.normal_impulse;
+      point.usual_impulse = p.usual_impulse;
     }
     m.friction_impulse = R_a * contact.friction_in_a;
     m.twist_impulse = contact.twist_impulse;
@@ -305,7 +321,9 @@ void Crowd::recall(CollisionState& state) {
     const SoftManifold& m = manifolds_[k];
     double sum = 0;
     for (int j = 0; j < m.count; ++j) {
-      contact.points[static_cast<std::size_t>(j)].normal_impulse = m.points[j].normal_impulse;
+      CrowdContact::Point& p = contact.points[static_cast<std::size_t>(j)];
+      p.normal_impulse = m.points[j].normal_impulse;
+      p.usual_impulse = m.points[j].usual_impulse;
       sum += m.points[j].normal_impulse;
     }
     contact.friction_in_a =

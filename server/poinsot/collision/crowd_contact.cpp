@@ -34,6 +34,7 @@ void recall(const CrowdContact& old, double size, CrowdContact& contact) {
   const auto take = [&](CrowdContact::Point& p, int j) {
     taken |= 1u << j;
     p.normal_impulse = old.points[static_cast<std::size_t>(j)].normal_impulse;
+    p.usual_impulse = old.points[static_cast<std::size_t>(j)].usual_impulse;
   };
   unsigned left = 0;
   for (int k = 0; k < contact.count; ++k) {
@@ -75,7 +76,10 @@ void CrowdContact::hash_into(Hash64& hash) const {
   hash.add(margin);
   for (const double x : measured.c) hash.add(x);
   for (const double x : measured.q.coeffs()) hash.add(x);
-  for (int k = 0; k < count; ++k) hash.add(points[static_cast<std::size_t>(k)].normal_impulse);
+  for (int k = 0; k < count; ++k) {
+    hash.add(points[static_cast<std::size_t>(k)].normal_impulse);
+    hash.add(points[static_cast<std::size_t>(k)].usual_impulse);
+  }
   for (const double x : friction_in_a) hash.add(x);
   hash.add(twist_impulse);
 }
@@ -113,7 +117,7 @@ void measure_contact(const Collider& a, const Pose& pose_a, const Collider& b, c
     p.on_a = to_a * Vec3(found.point + half - pose_a.c);
     p.on_b = to_b * Vec3(found.point - half - pose_b.c);
     p.feature = found.feature;
-    p.normal_impulse = 0;
+    p.normal_impulse = p.usual_impulse = 0;
   }
   recall(old, size, contact);
   if (old.count == 0) {

@@ -16,6 +16,7 @@ struct CrowdContact {
     Vec3 on_a = Vec3::Zero();   // [m] on the surface of a, in the frame S of its shape
     Vec3 on_b = Vec3::Zero();   // [m] on that of b, likewise
     double normal_impulse = 0;  // [N·s] of the last sub-step
+    double usual_impulse = 0;   // [N·s] its long mean
     std::uint32_t feature = kNearestFeature;
   };
 

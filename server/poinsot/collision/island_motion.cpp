@@ -132,6 +132,7 @@ void IslandMotion::advance(CollisionState& state, Island& island, double t_end,
               island_of,
               island_of[static_cast<std::size_t>(island.bodies.front())],
               impacts,
+              impacts,
               impacts * static_cast<double>(island.bodies.size()),
               state.def.impact_search == ImpactSearchKind::none};
   while (t < t_end && island.strays.empty()) {
@@ -271,7 +272,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
   constexpr int kAttempts = 2;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const Stopwatch::WallLap lap(contact_wall_s);
-    step_.begin(state, h, usual, false);
+    step_.begin(state, h, usual, false, frame.stops > 0);
     for (const int r : frame.island.records) {
       if (!state.pairs[r].standing) continue;
       for (const int body : {state.pairs[r].a, state.pairs[r].b})
@@ -327,6 +328,7 @@ double IslandMotion::step_standing(Frame& frame, double t) {
     first.record = -1;
   }
   await_points(frame, t, first);
+  if (step_.stopped()) --frame.stops;
   advance_movers(frame, t, first.time);
   note(frame, outcome, books);
   for (std::size_t k = 0; k < step_.records().size(); ++k) {
@@ -404,7 +406,7 @@ double IslandMotion::step_foreseeing(Frame& frame, double t) {
   double to;
   {
     const Stopwatch::WallLap lap(contact_wall_s);
-    step_.begin(state, h, h, true);
+    step_.begin(state, h, h, true, false);
     for (const int r : frame.island.records) {
       const PairRecord& record = state.pairs[r];
       for (const int body : {record.a, record.b})
@@ -436,7 +438,7 @@ void IslandMotion::note(Frame& frame, const ContactStep::Outcome& outcome,
 }
 
 bool IslandMotion::proves_rest(CollisionState& state, const Island& island) {
-  step_.begin(state, state.def.contact_step, state.def.contact_step, true);
+  step_.begin(state, state.def.contact_step, state.def.contact_step, true, false);
   for (const int r : island.records)
     if (state.pairs[r].standing) step_.add(state, r);
   return step_.holds_all(state, island.bodies) && step_.proves_rest(state);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "poinsot/contact/newton_pass.h"
 #include "poinsot/contact/newton_problem.h"
@@ -14,6 +15,8 @@ struct ConvexNewton::Scratch {
   NewtonPass pass;
   ShiftAcceleration acceleration;
   std::vector<Vec3> best;
+  double hardening = 1;  // [-] of passes proper
+  double hopeless = 0;   // [m/s] residual from which a guess led nowhere
 
   void keep();
   void restore();
@@ -29,12 +32,17 @@ constexpr double kHard = 1e-8, kHardest = 1e-12;
 constexpr double kLeft = 1e-3;  // [-] of the error, beside what depth of stacks adds
 // [-] the same for a pass proper, beside the residual's part of the loads: then points that change
 // their regions do so over what is left to be moved, and Newton's method sees them in time.
-constexpr double kSoftestPass = 1e-2, kHardestPass = 1e-4;
-constexpr double kAccepted = 0.5;     // [-] of the residual, that a guess must come down to
+constexpr double kSoftestPass = 1e-2, kHardestPass = 1e-5;
+constexpr double kAccepted = 0.5;  // [-] of the residual, that a guess must come down to
+// [-] of the residual at the last guess that led nowhere: then another one is made.
+constexpr double kHope = 0.1;
 constexpr double kMuchNearer = 0.1;   // [-] of the residual, that ends a pass before its own end
 constexpr double kInnerPart = 0.05;   // [-] of the residual, to which a pass is solved …
 constexpr double kInnerSpeed = 1e-8;  // [m/s] … but to this at least
-constexpr int kPatience = 15;         // passes without progress that end a solve
+// [-] R of the second attempt beside that of the first: what a softer pass leaves misleads the
+// shifts where the normal impulse nearly drives a point into the ground.
+constexpr double kSecondAttempt = 1e-2;
+constexpr int kPatience = 15;  // passes without progress that end a solve
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -71,9 +79,14 @@ SolveResidual ConvexNewton::improve(double residual, bool first) {
   scratch_->acceleration.choose_shifts(problem);
   const double hard = std::clamp(kLeft / problem.mass_ratio, kHardest, kHard);
   problem.set_softness(hard);
-  SolveResidual next = pass.guess(problem);
-  if (next.worst() <= kAccepted * residual) return next;
+  SolveResidual next;
   const double load = problem.largest_load();
+  const bool hopeful = residual <= kHope * scratch_->hopeless;
+  if (hopeful) {
+    next = pass.guess(problem);
+    if (next.worst() <= kAccepted * residual) return next;
+    scratch_->hopeless = residual;
+  }
   if (first && load > 0) {
     // The start was of little use: nothing may be a better one.
     scratch_->clear();
@@ -85,7 +98,8 @@ SolveResidual ConvexNewton::improve(double residual, bool first) {
     scratch_->acceleration.restart();
     scratch_->acceleration.choose_shifts(problem);
   }
-  problem.set_softness(load > 0 ? std::clamp(residual / load, kHardestPass, kSoftestPass)
+  problem.set_softness(load > 0 ? std::clamp(scratch_->hardening * residual / load,
+                                             kHardestPass * scratch_->hardening, kSoftestPass)
                                 : kSoftestPass);
   const double tolerable =
       std::max(problem.rounding(), std::min(kInnerPart * residual, kInnerSpeed));
@@ -97,9 +111,10 @@ SolveResidual ConvexNewton::iterate() {
   NewtonPass& pass = scratch_->pass;
   scratch_->acceleration.load(problem.points.size());
   pass.load(problem);
+  scratch_->hopeless = std::numeric_limits<double>::infinity();
+  scratch_->hardening = 1;
   SolveResidual now = problem.follow_trial(), least;
-  int best_pass = 0, k = 0;
-  bool stilled = false;
+  int best_pass = 0, stilled_pass = 0, k = 0;
   for (;; ++k) {
     problem.accept_trial();
     if (k == 0 || now.worst() < least.worst()) {
@@ -109,14 +124,16 @@ SolveResidual ConvexNewton::iterate() {
     }
     least.converged = least.worst() <= std::max(tolerance, problem.rounding());
     if (least.converged || k >= max_passes || pass.iterations >= max_iterations ||
-        k - best_pass > kPatience)
+        k - std::max(best_pass, stilled_pass) > kPatience)
       break;
-    if (k - best_pass == kPatience / 2 && !stilled) {
+    if (k - best_pass >= kPatience / 2 && stilled_pass == 0) {
       // Sliding that its own friction ends within the impulse: no shift of a sliding point fits.
       scratch_->restore();
       scratch_->acceleration.restart(true);
+      scratch_->hopeless = std::numeric_limits<double>::infinity();
+      scratch_->hardening = kSecondAttempt;
       now = least;
-      stilled = true;
+      stilled_pass = k;
     }
     now = improve(now.worst(), k == 0);
   }

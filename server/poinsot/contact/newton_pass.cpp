@@ -14,6 +14,12 @@ constexpr double kSameStiffness = 0.1;  // [-] likewise, across the sliding
 // [-] of the slope at the start, that ends a line search.
 constexpr double kFlat = 1e-2;
 constexpr int kMaxTrials = 40;
+// [-] A step so short has met a point that is about to change its region and is too stiff to be
+// passed: R grows for the rest of the pass, up to a limit beside inverse effective masses.
+constexpr double kShortStep = 0.05, kSofter = 10, kSoftest = 1e-2;
+// [-] of the residual: what predictions differ by when the pass has come to its end.
+constexpr double kSettled = 1e-2;
+constexpr double kWholeStep = 0.9;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -339,13 +345,21 @@ SolveResidual NewtonPass::run(NewtonProblem& problem, double enough, double tole
                               int max_iterations) {
   start(problem);
   slope(problem, 0);
+  double last = 0, length = 0;  // [m/s] residual of the last prediction; of the last step
   for (int k = 0; k < max_iterations && find_gradient(problem) > tolerance; ++k) {
     const SolveResidual predicted = take_step(problem);
-    if (predicted.worst() <= enough) return predicted;
+    const double residual = predicted.worst();
+    if (residual <= enough) return predicted;
+    if (length > kWholeStep && std::abs(residual - last) <= kSettled * residual) return predicted;
+    last = residual;
     if (!(descent_ < 0)) break;
-    const double length = search(problem);
+    length = search(problem);
     for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += length * step_[i];
     for (NewtonPoint& p : problem.points) p.moved += length * p.step;
+    if (length < kShortStep && problem.softness() < kSoftest) {
+      problem.set_softness(kSofter * problem.softness());
+      slope(problem, 0);
+    }
   }
   for (NewtonPoint& p : problem.points) p.trial = p.cone.impulse;
   return problem.follow_trial();

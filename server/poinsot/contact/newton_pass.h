@@ -31,7 +31,8 @@ class NewtonPass {
 
   // The pass proper. Ends when what bodies and impulses disagree by is no velocity above
   // `tolerance` [m/s] at a body's points, or when the impulses that a step predicts, brought into
-  // the cones, are within `enough` [m/s] of the law. Leaves impulses as the problem's trial.
+  // the cones, are within `enough` [m/s] of the law, or when these predictions have settled. Leaves
+  // impulses as the problem's trial; may leave the problem softer.
   SolveResidual run(NewtonProblem& problem, double enough, double tolerance, int max_iterations);
 
  private:

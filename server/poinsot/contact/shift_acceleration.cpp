@@ -56,7 +56,7 @@ void ShiftAcceleration::choose_shifts(NewtonProblem& problem) {
     now.error[i] = slides ? p.speed - p.shift : 0.0;
   }
   const double error = std::sqrt(dot(now.error, now.error));
-  if (filled_ > 1 && error > kWorse * last_error_) filled_ = 1;
+  if (!still_ && filled_ > 1 && error > kWorse * last_error_) filled_ = 1;
   last_error_ = error;
   combine();
   for (std::size_t i = 0; i < n; ++i) problem.points[i].shift = std::max(0.0, shifts_[i]);

@@ -48,7 +48,7 @@ void clear(SoftBlock& block, bool has_empty_lanes, int nobody) {
   } else {
     block.count = 0;
     block.bounces = block.turns = false;
-    block.push_work = block.residual = Lanes{};
+    block.push_work = block.residual = block.roll_1 = block.roll_2 = Lanes{};
   }
 }
 
@@ -91,6 +91,8 @@ void SoftBlocks::pack_lane(const SoftManifold& manifold, int source,
   put(block.arm_a, lane, centre);
   put(block.arm_b, lane, centre + between);
   block.friction[lane] = manifold.friction;
+  block.bend_a[lane] = manifold.round_a ? 0 : 1;
+  block.bend_b[lane] = manifold.round_b ? 0 : 1;
   block.restitution[lane] = manifold.restitution;
   block.slop[lane] = allowed_penetration_ * manifold.size;
   block.near[lane] = kNear * manifold.size;

@@ -132,9 +132,11 @@ void SoftBodies::move(std::size_t piece) {
     Course& course = course_[k];
     if (course.kind == Kind::kFixed) continue;
     HotBody& hot = hot_[k];
+    const bool free =
+        is_zero(hot.v - course.predicted_v) && is_zero(hot.omega - course.predicted_omega);
     hot.shift += h_ * hot.v;
-    if (is_zero(hot.v - course.predicted_v) && is_zero(hot.omega - course.predicted_omega))
-      hot.shift -= (0.5 * h_) * course.kick_v;
+    if (free) hot.shift -= (0.5 * h_) * course.kick_v;
+    if (!is_zero(course.kick_omega)) add_torque_work(k, free);
     if (course.kind == Kind::kTurning) {
       turn(k);
     } else if (!is_zero(hot.omega)) {
@@ -144,12 +146,21 @@ void SoftBodies::move(std::size_t piece) {
   }
 }
 
+void SoftBodies::add_torque_work(std::size_t k, bool free) {
+  const Course& course = course_[k];
+  const Vec3 mean = vector_of(free ? hot_[k].omega - 0.5 * course.kick_omega : hot_[k].omega);
+  const double inv_J = masses_[k].inv_J_W[0];
+  if (course.kind == Kind::kTurning)
+    torque_work_[k] += h_ * turning_[static_cast<std::size_t>(course.turning)].torque.dot(mean);
+  else if (inv_J > 0)
+    torque_work_[k] += vector_of(course.kick_omega).dot(mean) / inv_J;
+}
+
 void SoftBodies::turn(std::size_t k) {
   Course& course = course_[k];
   HotBody& hot = hot_[k];
   Turning& turning = turning_[static_cast<std::size_t>(course.turning)];
   const Vec3 omega = vector_of(hot.omega);
-  torque_work_[k] += h_ * turning.torque.dot(omega);
   const double angle = h_ * omega.norm();
   turning.turned_angle += angle;
   course.has_turned = turning.turned_angle > kStill;
@@ -189,7 +200,6 @@ void SoftBodies::finish(std::span<SoftBody> bodies) {
       Turning& turning = turning_[static_cast<std::size_t>(course.turning)];
       sync(turning, hot);
       body.L = turning.L;
-      work_ += torque_work_[k];
     } else if (body.turns_evenly) {
       const Vec3 before = times(masses_[k].inv_J_W, body.L);
       if (masses_[k].inv_J_W[0] > 0) body.L += (omega - before) / masses_[k].inv_J_W[0];
@@ -198,7 +208,7 @@ void SoftBodies::finish(std::span<SoftBody> bodies) {
     body.omega = omega;
     kinetic_change_ +=
         0.5 * (body.v.squaredNorm() / body.inv_mass + omega.dot(body.L)) - energy_[k];
-    work_ += body.acceleration.dot(vector_of(hot.shift)) / body.inv_mass;
+    work_ += torque_work_[k] + body.acceleration.dot(vector_of(hot.shift)) / body.inv_mass;
   }
 }
 

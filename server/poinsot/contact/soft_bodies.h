@@ -66,6 +66,7 @@ class SoftBodies {
     Mat3 inv_J_B, J_B, J_W;
     double turned_angle;  // [rad] since J_W was computed
   };
+  void add_torque_work(std::size_t k, bool free);
   void turn(std::size_t k);
   void sync(Turning& turning, const HotBody& hot) const;
 

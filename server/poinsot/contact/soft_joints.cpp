@@ -35,11 +35,21 @@ struct Side {
     const Mat3 x = cross_matrix(arm);
     return inv_mass * Mat3::Identity() - x * inv_J_W * x;
   }
+  // Bodies carry the impulse on from sub-step to sub-step; its arm has turned since.
+  void follow(Vec3& last_arm, const Vec3& impulse) {
+    turn((arm - last_arm).cross(impulse));
+    last_arm = arm;
+  }
+  void turn(const Vec3& couple) {
+    if (!moves) return;
+    const Vec3 omega = inv_J_W * couple;
+    hot.omega += Lanes{omega.x(), omega.y(), omega.z(), 0};
+  }
   void apply(const Vec3& impulse) {
     if (!moves) return;
-    const Vec3 v = inv_mass * impulse, omega = inv_J_W * arm.cross(impulse);
+    const Vec3 v = inv_mass * impulse;
     hot.v += Lanes{v.x(), v.y(), v.z(), 0};
-    hot.omega += Lanes{omega.x(), omega.y(), omega.z(), 0};
+    turn(arm.cross(impulse));
   }
 };
 
@@ -47,9 +57,11 @@ struct Side {
 
 void SoftJoints::start(std::span<const SoftBody> bodies, std::span<const PointJoint> joints) {
   arms_.clear();
-  for (const PointJoint& joint : joints)
-    arms_.push_back({joint.point - bodies[static_cast<std::size_t>(joint.a)].c,
-                     joint.point - bodies[static_cast<std::size_t>(joint.b)].c});
+  for (const PointJoint& joint : joints) {
+    const Vec3 a = joint.point - bodies[static_cast<std::size_t>(joint.a)].c;
+    const Vec3 b = joint.point - bodies[static_cast<std::size_t>(joint.b)].c;
+    arms_.push_back({a, b, a, b});
+  }
 }
 
 void SoftJoints::warm_start(std::span<const PointJoint> joints, SoftBodies& bodies) {
@@ -63,6 +75,10 @@ void SoftJoints::solve(std::span<PointJoint> joints, SoftBodies& bodies, bool to
   for (std::size_t k = 0; k < joints.size(); ++k) {
     PointJoint& joint = joints[k];
     Side a(bodies, joint.a, arms_[k].a), b(bodies, joint.b, arms_[k].b);
+    if (to_target) {
+      a.follow(arms_[k].last_a, joint.impulse);
+      b.follow(arms_[k].last_b, -joint.impulse);
+    }
     Vec3 off = a.velocity() - b.velocity();
     if (to_target) off -= joint.target;
     const Mat3 response = a.response() + b.response();

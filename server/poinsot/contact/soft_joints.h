@@ -18,7 +18,8 @@ class SoftJoints {
 
  private:
   struct Arms {
-    Vec3 a, b;  // [m] in W at the start of the step
+    Vec3 a, b;            // [m] in W at the start of the step
+    Vec3 last_a, last_b;  // when the impulse was last applied
   };
   std::vector<Arms> arms_;
 };

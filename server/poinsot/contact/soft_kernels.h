@@ -64,9 +64,11 @@ struct alignas(64) SoftBlock {
   Lanes inv_heave;                              // [kg]
   Lanes slip_gain, inv_twist;                   // [kg], [kg·m²]
   Lanes friction, restitution;
-  Lanes slop, near;  // [m]
-  Lanes overshoot;   // [-] of the impulse that would stop a resting point; below 0: it is softer
+  Lanes bend_a, bend_b;  // [-] 0: the surface is round, 1: its points turn with it
+  Lanes slop, near;      // [m]
+  Lanes overshoot;  // [-] of the impulse that would stop a resting point; below 0: it is softer
   Lanes drag_1 = {}, drag_2 = {}, twist = {};  // [N·s], [N·s], [N·m·s]
+  Lanes roll_1 = {}, roll_2 = {};              // [N·m·s] resistance to rolling
   std::array<SoftPointLanes, kPoints> points;
 
   Lanes push_work = {};  // [J]

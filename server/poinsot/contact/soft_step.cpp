@@ -77,7 +77,7 @@ SoftStep& SoftStep::operator=(SoftStep&&) noexcept = default;
 SoftOutcome SoftStep::advance(std::span<SoftBody> bodies, std::span<SoftManifold> manifolds,
                               std::span<PointJoint> joints, double duration,
                               const SoftSettings& settings, Team& team) {
-  const double h = duration / settings.steps;
+  const double h = duration / settings.steps;  // steps ≥ 1
   Scratch& s = *scratch_;
   s.bodies.start(bodies, h);
   s.blocks.start(bodies, manifolds, settings, h);

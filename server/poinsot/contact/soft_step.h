@@ -41,6 +41,9 @@ struct SoftManifold {
   int a = 0, b = 0;             // bodies; one of them may be immovable
   int count = 0;                // of points, ≥ 1
   Vec3 normal = Vec3::UnitZ();  // unit, in W, from b to a
+  // The surface is round where it touches (a ball, a capsule's side): another of its points comes
+  // under the normal as it turns, so that turning brings it no nearer to second order.
+  bool round_a = false, round_b = false;
   double friction = 0, restitution = 0;
   double size = 0;  // [m] of the pair: what its tolerances are relative to
   struct Point {

@@ -134,6 +134,22 @@ TEST(SoftStep, FollowsTheParabolaWhereNothingTouches) {
   EXPECT_NEAR(work, 2 * kGravity * (kGravity / 2 - 3), 1e-11);
 }
 
+TEST(SoftStep, CountsTheWorkOfTorques) {
+  for (const Vec3& size : {Vec3(1, 1, 1), Vec3(1, 0.5, 0.2)}) {
+    std::vector<SoftBody> bodies = {box(Vec3::Zero(), size, 2)};
+    bodies[0].torque = Vec3(0, 0.3, 0);  // about a principal axis
+    SoftStep solver;
+    Team team(1);
+    double work = 0, unaccounted = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+      const SoftOutcome outcome = solver.advance(bodies, {}, {}, kFrame, {}, team);
+      work += outcome.force_work;
+      unaccounted += outcome.loss;
+    }
+    EXPECT_NEAR(unaccounted, 0, 1e-9 * work);
+  }
+}
+
 TEST(SoftStep, TumblesFreelyWithoutLosingEnergy) {
   std::vector<SoftBody> bodies = {box(Vec3::Zero(), Vec3(1, 0.5, 0.2), 2)};
   SoftBody& body = bodies[0];
@@ -224,6 +240,37 @@ TEST(SoftStep, SlowsASlidingPointAlikeInAllDirections) {
     const double speed = kSpeed - kFriction * kGravity * 12 * kFrame;
     EXPECT_LT((bodies[1].v - speed * along).norm(), 1e-12) << k;
   }
+}
+
+TEST(SoftStep, SlowsARollingBallByItsRollingResistance) {
+  // m a = −f, J α = f r − ρ m g, a = α r: a = −ρ g r / (r² + J/m).
+  constexpr double kRadius = 0.5, kArm = 0.01, kSpeed = 2;
+  std::vector<SoftBody> bodies = {still_body(Vec3::Zero()),
+                                  box(Vec3(0, 0, kRadius), Vec3::Ones(), 2)};
+  SoftBody& ball = bodies[1];
+  ball.v.x() = kSpeed;
+  const double J = 1 / ball.inv_J_B(0, 0);
+  ball.L.y() = J * kSpeed / kRadius;
+  SoftManifold manifold;
+  manifold.a = 1;
+  manifold.b = 0;
+  manifold.count = 1;
+  manifold.round_a = true;
+  manifold.friction = 0.8;
+  manifold.size = 1;
+  SoftStep solver;
+  SoftSettings settings;
+  settings.rolling_resistance = kArm;
+  Team team(1);
+  for (int frame = 0; frame < 60; ++frame) {
+    manifold.points[0].arm_a = Vec3(0, 0, -kRadius);
+    manifold.points[0].arm_b = ball.c - Vec3(0, 0, kRadius);
+    solver.advance(bodies, std::span(&manifold, 1), {}, kFrame, settings, team);
+  }
+  const double slowed = kArm * kGravity * kRadius / (kRadius * kRadius + J * ball.inv_mass);
+  // The first frame has no load yet.
+  EXPECT_NEAR(ball.v.x(), kSpeed - slowed, 2 * kFrame * slowed);
+  EXPECT_NEAR(ball.omega.y(), ball.v.x() / kRadius, 1e-6);
 }
 
 TEST(SoftStep, CarriesATowerWithItsWeight) {
