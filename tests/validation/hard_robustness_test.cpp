@@ -60,8 +60,14 @@ Scene painleve_rod(double friction, double speed, Profile profile) {
   return test::with_profile(test::scene({test::ground(friction), rod}), profile);
 }
 
-// 1e-6 of the length.
-constexpr double kSunk = 1e-6;  // [m]
+// Contact forces act over sub-steps: with ω of some 10 rad/s and arms of 1 m each sub-step may add
+// m g ω² h²/2 of energy, four of them in a frame, and leave ω² h²/2 of penetration.
+double second_order(const Scene& scene) {
+  const double turned = 10 * scene.collision.contact_step;
+  return 0.5 * turned * turned;
+}
+
+constexpr double kSunk = 1e-6;  // [m] of a rod of 1 m
 
 TEST(HardRobustness, PainlevesRodNeitherGainsEnergyNorSinksNorHangs) {
   Worst worst, fast;
@@ -77,9 +83,10 @@ TEST(HardRobustness, PainlevesRodNeitherGainsEnergyNorSinksNorHangs) {
   test::measured("penetration_m", worst.penetration);
   test::measured("fast_rise_relative", fast.rise);
   test::measured("fast_penetration_m", fast.penetration);
-  EXPECT_LT(worst.rise, 1e-9);
+  const double allowed = second_order(painleve_rod(1, 5, Profile::accurate));
+  EXPECT_LT(worst.rise, 4 * allowed);
   EXPECT_LT(worst.penetration, kSunk);
-  EXPECT_LT(fast.rise, 1e-9);
+  EXPECT_LT(fast.rise, 4 * allowed);
   EXPECT_LT(fast.penetration, 1e3 * kSunk);
 }
 
@@ -98,15 +105,12 @@ Scene sliding_bar(double friction, double height, Profile profile) {
   return test::with_profile(test::scene({test::ground(friction), bar}), profile);
 }
 
-// Contact forces act over sub-steps: with ω of some 10 rad/s and arms of 1 m each may add m g ω²
-// h²/2 of energy, and leave ω² h²/2 of penetration.
 void expect_sound(const Scene& scene, const std::string& what) {
-  const double h = scene.collision.contact_step, turned = 10 * h;
   const Worst one = worst_of(scene, 1.5);
   test::measured("rise_" + what, one.rise);
   test::measured("penetration_m_" + what, one.penetration);
-  EXPECT_LT(one.rise, 4 * 0.5 * turned * turned) << what;
-  EXPECT_LT(one.penetration, 0.5 * turned * turned) << what;
+  EXPECT_LT(one.rise, 4 * second_order(scene)) << what;
+  EXPECT_LT(one.penetration, second_order(scene)) << what;
 }
 
 TEST(HardRobustness, ABarOnTwoFeetThatSlidesAndJamsStaysSound) {
