@@ -26,6 +26,13 @@ bool is_round(const Collider& collider, const Vec3& normal) {
   return collider.is_curved && std::abs(normal.z()) < kSide;
 }
 
+// Contacts of pairs lie anywhere in memory: those needed soon are asked for ahead.
+constexpr std::size_t kAhead = 6;
+void prefetch(const CrowdContact& contact) {
+  const char* const bytes = reinterpret_cast<const char*>(&contact);
+  for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(bytes + 64 * line);
+}
+
 template <class Task>
 void run_chunks(Team& team, std::size_t count, const Task& task) {
   team.run((count + kTogether - 1) / kTogether, [&](std::size_t chunk, int) {
@@ -51,6 +58,7 @@ double Crowd::travel(const CollisionState& state, Eigen::Index i, const Vec3& om
 Crowd::Crowd(const CollisionState& state)
     : member_(state.stamp.size(), 0),
       may_step_(state.stamp.size(), 0),
+      fits_(state.stamp.size(), 0),
       near_(state.colliders.size()),
       pose_(state.colliders.size()),
       travel_(state.stamp.size(), 0),
@@ -64,11 +72,25 @@ Crowd::Crowd(const CollisionState& state)
         (world.drag[k].linear > 0 || world.drag[k].quadratic > 0 || world.drag[k].angular > 0);
     may_step_[k] = world.moves(static_cast<Eigen::Index>(k)) && lone && !drags ? 1 : 0;
   }
+  for (const Collider& collider : state.colliders) {
+    const bool plane = std::holds_alternative<HalfSpace>(collider.shape);
+    const bool mesh = std::holds_alternative<Mesh>(collider.shape);
+    kind_.push_back(plane ? Kind::plane : mesh ? Kind::mesh : Kind::solid);
+    radius_.push_back(collider.bounding_radius);
+    has_mesh_ = has_mesh_ || mesh;
+  }
   if (state.def.contact_solver == ContactSolverKind::soft_step) member_ = may_step_;
 }
 
 void Crowd::set_member(Eigen::Index i, bool member) {
   member_[static_cast<std::size_t>(i)] = member ? 1 : 0;
+}
+
+void Crowd::look(const CollisionState& state, double h, Team& team) {
+  run_chunks(team, member_.size(), [&](std::size_t k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (member_[k] != 0 && state.is_awake(i)) fits_[k] = look(state, i, h) ? 1 : 0;
+  });
 }
 
 bool Crowd::look(const CollisionState& state, Eigen::Index i, double h) {
@@ -84,6 +106,14 @@ bool Crowd::look(const CollisionState& state, Eigen::Index i, double h) {
     fits = fits && state.bound[c].contains(near_[c]);
   }
   return fits;
+}
+
+void Crowd::find_idle(CollisionState& state, Team& team) const {
+  const std::span<PairRecord> records = state.pairs.records();
+  run_chunks(team, records.size(), [&](std::size_t k) {
+    PairRecord& record = records[k];
+    record.idle = (has(record.a) || has(record.b)) && !is_near(state, record);
+  });
 }
 
 Aabb Crowd::roomy_box(const CollisionState& state, const Collider& collider, double h) const {
@@ -103,8 +133,7 @@ bool Crowd::is_near(const CollisionState& state, const PairRecord& record) const
     return has(body) ? near_[c] : state.bound[c];
   };
   const auto is_plane = [&](int collider) {
-    return std::holds_alternative<HalfSpace>(
-        state.colliders[static_cast<std::size_t>(collider)].shape);
+    return kind_[static_cast<std::size_t>(collider)] == Kind::plane;
   };
   if (is_plane(record.pair.a) || is_plane(record.pair.b)) return true;
   return box(record.pair.a, record.a).overlaps(box(record.pair.b, record.b));
@@ -120,14 +149,13 @@ bool Crowd::takes(const CollisionState& state, const Island& island, double dura
         !held.moment.isZero(0))
       return false;
   }
-  bool stands = false;
-  for (const int r : island.records) {
-    const PairRecord& record = state.pairs.records()[static_cast<std::size_t>(r)];
-    stands = stands || record.standing;
-    for (const int c : {record.pair.a, record.pair.b})
-      if (std::holds_alternative<Mesh>(state.colliders[static_cast<std::size_t>(c)].shape))
-        return false;
-  }
+  const auto record = [&](int r) -> const PairRecord& {
+    return state.pairs.records()[static_cast<std::size_t>(r)];
+  };
+  if (has_mesh_)
+    for (const int r : island.records)
+      for (const int collider : {record(r).pair.a, record(r).pair.b})
+        if (kind_[static_cast<std::size_t>(collider)] == Kind::mesh) return false;
   if (state.def.contact_solver == ContactSolverKind::soft_step) return true;
   for (const Eigen::Index i : island.bodies) {
     double size = std::numeric_limits<double>::infinity();
@@ -135,6 +163,8 @@ bool Crowd::takes(const CollisionState& state, const Island& island, double dura
     if (travel(state, i, angular_velocity(world, i), duration) > kLook * size) return false;
   }
   if (island.bodies.size() > kMostDirect) return true;
+  const bool stands = std::any_of(island.records.begin(), island.records.end(),
+                                  [&](int r) { return record(r).standing; });
   constexpr double kSoftTolerance = 1e-4;  // what soft_step may reach in easy islands
   return stands && island.bodies.size() > kFewDirect &&
          state.def.contact_tolerance >= kSoftTolerance;
@@ -193,7 +223,8 @@ int Crowd::local(const CollisionState& state, int column) {
   return local;
 }
 
-void Crowd::gather_bodies(const CollisionState& state, std::span<Island* const> islands) {
+void Crowd::gather_bodies(const CollisionState& state, std::span<Island* const> islands,
+                          Team& team) {
   for (const Eigen::Index i : columns_) local_[static_cast<std::size_t>(i)] = -1;
   columns_.clear();
   records_.clear();
@@ -205,7 +236,7 @@ void Crowd::gather_bodies(const CollisionState& state, std::span<Island* const> 
     local_[static_cast<std::size_t>(columns_[k])] = static_cast<int>(k);
   const World& world = state.world();
   bodies_.resize(columns_.size());
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
+  run_chunks(team, columns_.size(), [&](std::size_t k) {
     const Eigen::Index i = columns_[k];
     const auto column = static_cast<std::size_t>(i);
     SoftBody& body = bodies_[k];
@@ -224,20 +255,20 @@ void Crowd::gather_bodies(const CollisionState& state, std::span<Island* const> 
     }
     const Mat3& J = world.J_B[column];
     body.turns_evenly = J(0, 0) == J(1, 1) && J(1, 1) == J(2, 2) && J.isDiagonal(0);
-  }
+  });
 }
 
 // Finds the points of all records.
 void Crowd::measure(CollisionState& state, double h, Team& team) {
   ++step_;
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
+  run_chunks(team, columns_.size(), [&](std::size_t k) {
     const Eigen::Index i = columns_[k];
     const Pose pose{bodies_[k].c, bodies_[k].q};
     for (const Collider& collider : state.colliders_of(i))
       pose_[static_cast<std::size_t>(&collider - state.colliders.data())] =
           collider_pose(collider, pose);
     travel_[static_cast<std::size_t>(i)] = travel(state, i, bodies_[k].omega, h);
-  }
+  });
   for (const int r : records_) {
     PairRecord& record = state.pairs[r];
     state.pairs.make_crowd_contact(record);
@@ -246,6 +277,8 @@ void Crowd::measure(CollisionState& state, double h, Team& team) {
   }
   run_chunks(team, records_.size(), [&](std::size_t k) {
     const PairRecord& record = state.pairs[records_[k]];
+    if (k + kAhead < records_.size())
+      prefetch(state.pairs.crowd_contact(state.pairs[records_[k + kAhead]]));
     CrowdContact& contact = state.pairs.crowd_contact(record);
     const Collider& a = state.colliders[static_cast<std::size_t>(record.pair.a)];
     const Collider& b = state.colliders[static_cast<std::size_t>(record.pair.b)];
@@ -254,7 +287,9 @@ void Crowd::measure(CollisionState& state, double h, Team& team) {
     const double margin = state.def.contact_margin * record.size +
                           travel_[static_cast<std::size_t>(record.a)] +
                           travel_[static_cast<std::size_t>(record.b)];
-    if ((pose_a.c - pose_b.c).norm() > a.bounding_radius + b.bounding_radius + margin) {
+    const double reach = radius_[static_cast<std::size_t>(record.pair.a)] +
+                         radius_[static_cast<std::size_t>(record.pair.b)] + margin;
+    if ((pose_a.c - pose_b.c).squaredNorm() > reach * reach) {
       contact.forget();
       return;
     }
@@ -313,9 +348,9 @@ void Crowd::fill(CollisionState& state, Team& team) {
 }
 
 // Contacts remember their impulses.
-void Crowd::recall(CollisionState& state) {
+void Crowd::recall(CollisionState& state, Team& team) {
   for (const int r : records_) state.pairs[r].standing = false;
-  for (std::size_t k = 0; k < active_.size(); ++k) {
+  run_chunks(team, active_.size(), [&](std::size_t k) {
     PairRecord& record = state.pairs[active_[k]];
     CrowdContact& contact = state.pairs.crowd_contact(record);
     const SoftManifold& m = manifolds_[k];
@@ -330,22 +365,26 @@ void Crowd::recall(CollisionState& state) {
         pose_[static_cast<std::size_t>(record.pair.a)].q.conjugate() * m.friction_impulse;
     contact.twist_impulse = m.twist_impulse;
     record.standing = sum > 0;
-  }
+  });
 }
 
-void Crowd::scatter(CollisionState& state, Result& result) {
+void Crowd::scatter(CollisionState& state, Result& result, Team& team) {
   World& world = state.simulation.world();
+  Vec3 moved = Vec3::Zero();  // [kg·m]
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];
+    moved += world.mass[static_cast<std::size_t>(i)] * (bodies_[k].c - Vec3(position(world.y, i)));
+  }
+  result.tally.work -= world.gravity.dot(moved);
+  run_chunks(team, columns_.size(), [&](std::size_t k) {
+    const Eigen::Index i = columns_[k];
     const SoftBody& body = bodies_[k];
-    const double mass = world.mass[static_cast<std::size_t>(i)];
-    result.tally.work -= mass * world.gravity.dot(body.c - Vec3(position(world.y, i)));
     position(world.y, i) = body.c;
     orientation(world.y, i) = body.q;
-    momentum(world.y, i) = mass * body.v;
+    momentum(world.y, i) = world.mass[static_cast<std::size_t>(i)] * body.v;
     angular_momentum(world.y, i) = body.L;
     state.change_course(i);
-  }
+  });
   state.simulation.accept(columns_, result.tally);
 }
 
@@ -374,7 +413,7 @@ Crowd::Result Crowd::advance(CollisionState& state, std::span<Island* const> isl
                              Team& team) {
   Result result;
   const double duration = t_end - state.world().time;
-  gather_bodies(state, islands);
+  gather_bodies(state, islands, team);
   const int parts = this->parts(state, duration);
   const double h = duration / parts;
   SoftSettings settings;
@@ -386,7 +425,7 @@ Crowd::Result Crowd::advance(CollisionState& state, std::span<Island* const> isl
   for (int part = 0; part < parts; ++part) {
     if (part > 0) {
       now_ = state.world().time + part * h;
-      gather_bodies(state, islands);
+      gather_bodies(state, islands, team);
     }
     measure(state, h, team);
     fill(state, team);
@@ -397,8 +436,8 @@ Crowd::Result Crowd::advance(CollisionState& state, std::span<Island* const> isl
     result.outcome.max_penetration = outcome.max_penetration;
     result.outcome.pushing = outcome.pushing;
     result.outcome.residual = outcome.residual;
-    recall(state);
-    scatter(state, result);
+    recall(state, team);
+    scatter(state, result, team);
   }
   for (const Eigen::Index i : columns_) state.body_time[static_cast<std::size_t>(i)] = t_end;
   result.bodies = static_cast<std::uint32_t>(columns_.size());

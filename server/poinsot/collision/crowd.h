@@ -26,13 +26,14 @@ class Crowd {
   bool has(Eigen::Index i) const { return member_[static_cast<std::size_t>(i)] != 0; }
   void set_member(Eigen::Index i, bool member);
 
-  // What the shapes of body i may touch before `h` [s] have passed; whether its boxes hold that.
-  bool look(const CollisionState& state, Eigen::Index i, double h);
+  // What the shapes of its bodies may touch before `h` [s] have passed …
+  void look(const CollisionState& state, double h, Team& team);
+  // … whether the boxes of body i hold that …
+  bool fits(Eigen::Index i) const { return fits_[static_cast<std::size_t>(i)] != 0; }
+  // … and which of its pairs do not touch in this frame.
+  void find_idle(CollisionState& state, Team& team) const;
   // A box for a collider of such a body that is likely to last for some frames.
   Aabb roomy_box(const CollisionState& state, const Collider& collider, double h) const;
-  // Whether a pair may touch in this frame; one body at least is in the crowd and was looked at.
-  bool is_near(const CollisionState& state, const PairRecord& record) const;
-
   // Whether an island is stepped with the crowd in the frame that begins.
   bool takes(const CollisionState& state, const Island& island, double duration) const;
 
@@ -49,19 +50,27 @@ class Crowd {
                   std::vector<ContactForce>& forces) const;
 
  private:
+  bool look(const CollisionState& state, Eigen::Index i, double h);
+  bool is_near(const CollisionState& state, const PairRecord& record) const;
   int parts(const CollisionState& state, double duration);
-  void gather_bodies(const CollisionState& state, std::span<Island* const> islands);
+  void gather_bodies(const CollisionState& state, std::span<Island* const> islands, Team& team);
   void measure(CollisionState& state, double h, Team& team);
   void fill(CollisionState& state, Team& team);
-  void recall(CollisionState& state);
+  void recall(CollisionState& state, Team& team);
   int local(const CollisionState& state, int column);
   void place_immovable(const CollisionState& state, int i, double h);
   double travel(const CollisionState& state, Eigen::Index i, const Vec3& omega, double h) const;
-  void scatter(CollisionState& state, Result& result);
+  void scatter(CollisionState& state, Result& result, Team& team);
 
   std::vector<std::uint8_t> member_;    // per body
   std::vector<std::uint8_t> may_step_;  // per body: nothing acts on it that soft_step does not know
-  std::vector<Aabb> near_;              // per collider of a body looked at
+  std::vector<std::uint8_t> fits_;      // per body
+  // What loops over pairs need of a collider, close together.
+  enum class Kind : std::uint8_t { solid, plane, mesh };
+  std::vector<Kind> kind_;
+  std::vector<double> radius_;  // [m] about its origin
+  bool has_mesh_ = false;
+  std::vector<Aabb> near_;  // per collider of a body looked at
   // Of the bodies that take part, where the step is.
   std::vector<Pose> pose_;             // per collider
   std::vector<double> travel_;         // [m] per body: no point of it moves farther in the step

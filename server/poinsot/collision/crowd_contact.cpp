@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "poinsot/collision/proximity.h"
 
@@ -27,22 +28,35 @@ bool has_corners(const Collider& collider) {
          std::holds_alternative<HalfSpace>(collider.shape);
 }
 
+// As find_manifold(), without a detour: heaps of balls are nothing else.
+void find_spheres(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+                  double margin, Manifold& manifold) {
+  const Vec3 apart = pose_a.c - pose_b.c;
+  const double distance = apart.norm();
+  const double gap = distance - a.core_radius - b.core_radius;
+  manifold.count = 0;
+  if (!(gap <= margin)) return;
+  manifold.normal = distance > 0 ? Vec3(apart / distance) : Vec3(Vec3::UnitZ());
+  manifold.points[0] = {pose_b.c + (b.core_radius + 0.5 * gap) * manifold.normal, gap};
+  manifold.count = 1;
+}
+
 // The impulses of old points that new ones continue: those of the same feature, else the nearest.
-void recall(const CrowdContact& old, double size, CrowdContact& contact) {
+void recall(std::span<const CrowdContact::Point> old, double size, CrowdContact& contact) {
   const double most = kSamePoint * size;
   unsigned taken = 0;
+  const int count = static_cast<int>(old.size());
   const auto take = [&](CrowdContact::Point& p, int j) {
     taken |= 1u << j;
-    p.normal_impulse = old.points[static_cast<std::size_t>(j)].normal_impulse;
-    p.usual_impulse = old.points[static_cast<std::size_t>(j)].usual_impulse;
+    p.normal_impulse = old[static_cast<std::size_t>(j)].normal_impulse;
+    p.usual_impulse = old[static_cast<std::size_t>(j)].usual_impulse;
   };
   unsigned left = 0;
   for (int k = 0; k < contact.count; ++k) {
     CrowdContact::Point& p = contact.points[static_cast<std::size_t>(k)];
     left |= 1u << k;
-    for (int j = 0; j < old.count; ++j) {
-      if ((taken >> j & 1u) != 0 || old.points[static_cast<std::size_t>(j)].feature != p.feature)
-        continue;
+    for (int j = 0; j < count; ++j) {
+      if ((taken >> j & 1u) != 0 || old[static_cast<std::size_t>(j)].feature != p.feature) continue;
       take(p, j);
       left &= ~(1u << k);
       break;
@@ -53,8 +67,8 @@ void recall(const CrowdContact& old, double size, CrowdContact& contact) {
     CrowdContact::Point& p = contact.points[static_cast<std::size_t>(k)];
     double nearest = most * most;
     int match = -1;
-    for (int j = 0; j < old.count; ++j) {
-      const double distance = (old.points[static_cast<std::size_t>(j)].on_b - p.on_b).squaredNorm();
+    for (int j = 0; j < count; ++j) {
+      const double distance = (old[static_cast<std::size_t>(j)].on_b - p.on_b).squaredNorm();
       if ((taken >> j & 1u) != 0 || distance >= nearest) continue;
       nearest = distance;
       match = j;
@@ -98,8 +112,14 @@ void measure_contact(const Collider& a, const Pose& pose_a, const Collider& b, c
     }
   }
   Manifold manifold;
-  find_manifold(a, pose_a, b, pose_b, kFarther * margin, manifold);
-  const CrowdContact old = contact;
+  if (std::holds_alternative<Sphere>(a.shape) && std::holds_alternative<Sphere>(b.shape)) {
+    find_spheres(a, pose_a, b, pose_b, kFarther * margin, manifold);
+  } else {
+    find_manifold(a, pose_a, b, pose_b, kFarther * margin, manifold);
+  }
+  std::array<CrowdContact::Point, Manifold::kMaxPoints> old;
+  const auto old_count = static_cast<std::size_t>(contact.count);
+  std::copy_n(contact.points.begin(), old_count, old.begin());
   contact.measured = relative;
   contact.margin = kFarther * margin;
   contact.count = manifold.count;
@@ -119,8 +139,8 @@ void measure_contact(const Collider& a, const Pose& pose_a, const Collider& b, c
     p.feature = found.feature;
     p.normal_impulse = p.usual_impulse = 0;
   }
-  recall(old, size, contact);
-  if (old.count == 0) {
+  recall(std::span(old).first(old_count), size, contact);
+  if (old_count == 0) {
     contact.friction_in_a.setZero();
     contact.twist_impulse = 0;
   }

@@ -23,10 +23,10 @@ struct CrowdContact {
   Pose measured;       // of B's shape in A's frame when the points were last found …
   double margin = -1;  // [m] … and how far apart they were looked for; < 0: never
   int count = 0;
-  Vec3 normal_in_a = Vec3::UnitZ();  // unit, from b to a
-  std::array<Point, Manifold::kMaxPoints> points;
+  Vec3 normal_in_a = Vec3::UnitZ();   // unit, from b to a
   Vec3 friction_in_a = Vec3::Zero();  // [N·s] on a, in the frame S of A
   double twist_impulse = 0;           // [N·m·s] on a about the normal
+  std::array<Point, Manifold::kMaxPoints> points;
 
   void forget();  // as if it had never been near
   void hash_into(Hash64& hash) const;

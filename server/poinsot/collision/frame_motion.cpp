@@ -131,13 +131,14 @@ void FrameMotion::settle_courses() {
 
 void FrameMotion::set_bounds(double t_end) {
   const World& world = state_.world();
+  crowd_.look(state_, t_end - world.time, team_);
   for (Eigen::Index i = 0; i < world.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!state_.is_awake(i) && !world.is_kinematic(i)) continue;
     if (state_.arm[k] == 0 && state_.colliders_of(i).empty()) continue;
     if (crowd_.has(i)) {
       const double h = t_end - world.time;
-      if (!crowd_.look(state_, i, h)) {
+      if (!crowd_.fits(i)) {
         for (const Collider& collider : state_.colliders_of(i))
           place_box(collider, crowd_.roomy_box(state_, collider, h));
         boxes_changed_ = true;
@@ -206,6 +207,8 @@ void FrameMotion::update_pairs() {
 void FrameMotion::find_excited(double t_end, SearchWork& work) {
   IslandMotion& motion = motions_.front();
   const bool searches = state_.def.impact_search != ImpactSearchKind::none;
+  crowd_.find_idle(state_, team_);
+  bool all_crowd = true;  // whatever is excited
   bool again = true;
   while (again) {  // until nobody else is woken
     again = false;
@@ -214,9 +217,8 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
       const bool carried =
           state_.world().is_kinematic(record.a) || state_.world().is_kinematic(record.b);
       if (!awake_a && !awake_b && !carried) continue;
-      const bool crowd = crowd_.has(record.a) || crowd_.has(record.b);
-      record.idle = crowd && !crowd_.is_near(state_, record);
       if (record.idle) continue;
+      const bool crowd = crowd_.has(record.a) || crowd_.has(record.b);
       bool hot = record.standing || !searches || crowd;
       if (!hot) {
         const double lasting = std::min(state_.bounds_until[static_cast<std::size_t>(record.a)],
@@ -225,6 +227,8 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
         hot = record.meeting != Meeting::none && record.safe_until <= t_end;
       }
       if (!hot) continue;
+      all_crowd = all_crowd && crowd_.has(record.a) == state_.is_awake(record.a) &&
+                  crowd_.has(record.b) == state_.is_awake(record.b);
       for (const int body : {record.a, record.b}) {
         const auto k = static_cast<std::size_t>(body);
         if (state_.asleep[k] != 0 && searches) {
@@ -235,6 +239,7 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
       }
     }
   }
+  if (all_crowd) return;
   // What one impact among them may throw them to.
   const double h = t_end - state_.world().time;
   fastest_.assign(excited_.size(), -1);

@@ -38,25 +38,25 @@ struct PairContact {
   mutable std::uint64_t digest = 0;  // of all of it that a continuation depends on; 0: to be formed
 };
 
-struct PairRecord {
+// What all pairs are asked for in every frame comes first, in one line of the cache.
+struct alignas(64) PairRecord {
   ColliderPair pair;
   int a = 0, b = 0;  // bodies
   double size = 0;   // [m] the smaller collider's
   double friction = 0, restitution = 0;
+  int contact = -1;        // index into contacts; -1: never near
+  int crowd_contact = -1;  // index into crowd contacts; -1: never near
+  bool standing = false;   // touches, and lasts: stepped, not searched
+  bool idle = false;       // of a body in the crowd, and apart for this frame
   bool both_move = false;
 
   // No root of the gap before `safe_until`, on the courses with these stamps; `meeting` tells what
   // is then.
-  double safe_until = -std::numeric_limits<double>::infinity();
-  std::uint32_t stamp_a = 0, stamp_b = 0;
   Meeting meeting = Meeting::none;
+  std::uint32_t stamp_a = 0, stamp_b = 0;
+  double safe_until = -std::numeric_limits<double>::infinity();
   Vec3 normal = Vec3::Zero(), point = Vec3::Zero();
   SearchMemory memory;
-
-  bool standing = false;   // touches, and lasts: stepped, not searched
-  int contact = -1;        // index into contacts; -1: never near
-  bool idle = false;       // of a body in the crowd, and apart for this frame
-  int crowd_contact = -1;  // index into crowd contacts; -1: never near
 };
 
 class PairStore {

@@ -46,6 +46,9 @@ struct SoftManifold {
   bool round_a = false, round_b = false;
   double friction = 0, restitution = 0;
   double size = 0;  // [m] of the pair: what its tolerances are relative to
+  // Of a sub-step on a, in W: start of the next step, and result.
+  Vec3 friction_impulse = Vec3::Zero();  // [N·s] perpendicular to the normal
+  double twist_impulse = 0;              // [N·m·s] about the normal
   struct Point {
     Vec3 arm_a = Vec3::Zero(),
          arm_b = Vec3::Zero();  // [m] in W from c to the point on either surface
@@ -55,8 +58,6 @@ struct SoftManifold {
     // that forgets it sags under its load.
     double usual_impulse = 0;
   } points[kMaxPoints];
-  Vec3 friction_impulse = Vec3::Zero();  // [N·s] on a, in W, perpendicular to the normal, likewise
-  double twist_impulse = 0;              // [N·m·s] on a about the normal, likewise
 };
 
 struct SoftSettings {
