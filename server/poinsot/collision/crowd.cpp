@@ -396,7 +396,7 @@ Crowd::Result Crowd::advance(CollisionState& state, std::span<Island* const> isl
     result.outcome.push_out_energy += outcome.push_out_energy;
     result.outcome.max_penetration = outcome.max_penetration;
     result.outcome.pushing = outcome.pushing;
-    result.outcome.residual = outcome.residual;
+    result.outcome.residual = std::max(result.outcome.residual, outcome.residual);
     recall(state);
     scatter(state, result);
   }
