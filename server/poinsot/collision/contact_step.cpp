@@ -23,6 +23,7 @@ void ContactStep::begin(const CollisionState& state, double h, double usual, boo
   usual_ = std::min(usual, h);
   slip_ = {};
   residual_ = {};
+  iterations_ = 0;
   foresees_ = foresees;
   stops_ = stops;
   stopped_ = false;

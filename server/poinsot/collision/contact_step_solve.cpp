@@ -101,6 +101,7 @@ ContactStep::Outcome ContactStep::solve(CollisionState& state, Books& books) {
   find_movers(state);
   Outcome outcome;
   outcome.residual = residual_;
+  outcome.iterations = iterations_;
   for (const Contact& contact : contacts_) {
     outcome.pushing += contact.normal_impulse > 0 ? 1 : 0;
     outcome.max_penetration = std::max(outcome.max_penetration, -contact.gap);
@@ -162,7 +163,7 @@ void ContactStep::push_out(CollisionState& state, Books& books) {
   }
   const double tolerance = solver_.tolerance;
   solver_.tolerance = kPushedOut * *std::max_element(target_.begin(), target_.end());
-  solver_.push_out(bodies_, contacts_, target_);
+  iterations_ += solver_.push_out(bodies_, contacts_, target_).iterations;
   solver_.tolerance = tolerance;
   for (Contact& contact : contacts_) contact.gap += h_ * relative_speed(contact, bodies_);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -217,7 +218,7 @@ void ContactStep::foresee_impacts(CollisionState& state, Books& books) {
     contact.friction_impulse.setZero();
   }
   before_ = bodies_;
-  solver_.solve(bodies_, impacts_, target_);
+  iterations_ += solver_.solve(bodies_, impacts_, target_).iterations;
   for (const Contact& contact : impacts_) {
     const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
     const Vec3 impulse = impulse_of(contact);
@@ -276,7 +277,9 @@ SolveResidual ContactStep::find_forces(double h) {
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     target_[i] = -std::max(contacts_[i].gap, 0.0) / h;
-  return solver_.solve(bodies_, contacts_, target_);
+  const SolveResidual residual = solver_.solve(bodies_, contacts_, target_);
+  iterations_ += residual.iterations;
+  return residual;
 }
 
 void ContactStep::set_duration(CollisionState& state, double h) {

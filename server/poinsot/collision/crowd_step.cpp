@@ -354,7 +354,7 @@ CrowdStep::Result CrowdStep::advance(CollisionState& state, std::span<Island* co
     result.outcome.push_out_energy += outcome.push_out_energy;
     result.outcome.max_penetration = outcome.max_penetration;
     result.outcome.pushing = outcome.pushing;
-    result.outcome.residual = outcome.residual;
+    result.outcome.residual = std::max(result.outcome.residual, outcome.residual);
     recall(state, team);
     scatter(state, result, team);
   }

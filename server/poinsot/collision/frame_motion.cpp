@@ -78,6 +78,8 @@ void FrameMotion::advance_to(double t_end, CollisionReport& report,
   report.contacts = 0;
   report.max_penetration = 0;
   report.crowded = false;
+  report.soft_bodies = report.direct_bodies = report.solver_iterations = report.unconverged = 0;
+  report.contact_residual = 0;
   if (rests_ && !touched_ && std::isfinite(t_end) && t_end >= state_.world().time) {
     state_.simulation.commit(t_end, {});
     return;
@@ -409,6 +411,8 @@ void FrameMotion::run_crowd(double t_end, CollisionReport& report, CollisionTime
   report.max_penetration = std::max(report.max_penetration, crowd_result_.outcome.max_penetration);
   report.impact_loss += crowd_result_.outcome.loss;
   report.push_out_energy += crowd_result_.outcome.push_out_energy;
+  report.soft_bodies = crowd_result_.bodies;
+  report.contact_residual = crowd_result_.outcome.residual;
 }
 
 void FrameMotion::place_frozen() {
@@ -510,6 +514,10 @@ void FrameMotion::close(double t_end, CollisionReport& report, std::vector<Impac
     report.push_out_energy += result.push_out_energy;
     report.impacts += result.impacts;
     report.crowded |= result.crowded;
+    if (result.solved) report.direct_bodies += static_cast<std::uint32_t>(island.bodies.size());
+    report.contact_residual = std::max(report.contact_residual, result.residual);
+    report.solver_iterations += result.iterations;
+    report.unconverged += result.unconverged;
     report.searches += static_cast<std::uint32_t>(result.work.searches);
     report.search_poses += result.work.poses;
     report.search_gaps += result.work.gaps;

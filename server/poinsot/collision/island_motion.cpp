@@ -435,6 +435,11 @@ void IslandMotion::note(Frame& frame, const ContactStep::Outcome& outcome,
   result.max_penetration = outcome.max_penetration;
   result.impact_loss += books.impact_loss;
   result.push_out_energy += books.push_out_energy;
+  if (step_.points() == 0) return;
+  result.solved = true;
+  result.residual = std::max(result.residual, outcome.residual.worst());
+  result.iterations += static_cast<std::uint32_t>(outcome.iterations);
+  result.unconverged += outcome.residual.converged ? 0 : 1;
 }
 
 bool IslandMotion::proves_rest(CollisionState& state, const Island& island) {
