@@ -12,8 +12,9 @@ constexpr double kRoom = 0.05;
 constexpr double kFramesAhead = 4;
 
 // What `auto` goes by.
-// A larger island is too dear for a direct solver: a heap of it takes a tenth of a second a frame.
-constexpr std::size_t kMostDirect = 200;
+// A larger island is too dear for a direct solver; one that moves, whose contacts come and go,
+// sooner than one that rests, whose forces are known from the frame before.
+constexpr std::size_t kMostMoving = 64, kMostResting = 400;
 // A body on its own is solved directly even if that accuracy is not asked for.
 constexpr std::size_t kFewDirect = 1;
 // What soft_step reaches in easy islands, relative to the size: of neighbours at most kMostRatio
@@ -21,14 +22,16 @@ constexpr std::size_t kFewDirect = 1;
 constexpr double kSoftTolerance = 1e-4;
 constexpr double kMostRatio = 10;
 constexpr int kMostLevels = 12;
-// An island that is strained by so many times its tolerance is solved directly for some frames.
+// An island that is strained by so many times its tolerance though it hardly moves, by kSlow of its
+// size in a frame, is solved directly for some frames.
 constexpr double kStrained = 10;
+constexpr double kSlow = 1e-3;
 constexpr int kPromotedFrames = 120;
 // A body that moves farther than this of its size in a frame is left to the impact search.
 constexpr double kFast = 0.5;
 
 // Whether bodies are in the crowd unless something speaks against it.
-bool is_usual(const CollisionDef& def) {
+bool prefers_crowd(const CollisionDef& def) {
   return def.contact_solver == ContactSolverKind::soft_step ||
          (def.contact_solver == ContactSolverKind::automatic &&
           def.contact_tolerance >= kSoftTolerance);
@@ -74,7 +77,7 @@ Crowd::Crowd(const CollisionState& state)
     kind_.push_back(plane ? Kind::plane : mesh ? Kind::mesh : Kind::solid);
     has_mesh_ = has_mesh_ || mesh;
   }
-  usual_ = is_usual(state.def);
+  usual_ = prefers_crowd(state.def);
   if (usual_) member_ = may_step_;
 }
 
@@ -160,17 +163,20 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
   if (kind == ContactSolverKind::soft_step) return true;
   for (const Eigen::Index i : island.bodies)
     if (forced_[static_cast<std::size_t>(i)] == frame_) return true;
-  bool promoted = false;
+  bool promoted = false, rests = true;
   for (const Eigen::Index i : island.bodies) {
     const auto k = static_cast<std::size_t>(i);
     const double way = crowd_travel(state, i, angular_velocity(state.world(), i), duration);
     if (way > kFast * least_size(state, i)) return false;
-    if (has(i) && step.strain(i) > kStrained * state.def.contact_tolerance)
+    const bool slow =
+        duration * linear_velocity(state.world(), i).norm() <= kSlow * least_size(state, i);
+    rests = rests && slow;
+    if (has(i) && slow && step.strain(i) > kStrained * state.def.contact_tolerance)
       promoted_[k] = kPromotedFrames;
     promoted = promoted || promoted_[k] > 0;
     promoted_[k] = std::max(0, promoted_[k] - 1);
   }
-  if (island.bodies.size() > kMostDirect) return true;
+  if (island.bodies.size() > (rests ? kMostResting : kMostMoving)) return true;
   return !promoted && is_easy(state, island);
 }
 
