@@ -21,14 +21,16 @@ constexpr std::size_t kFewDirect = 1;
 constexpr double kSoftTolerance = 1e-4;
 constexpr double kMostRatio = 10;
 constexpr int kMostLevels = 12;
-// An island that is strained by so many times its tolerance is solved directly for some frames.
+// An island that is strained by so many times its tolerance though it hardly moves, by kSlow of its
+// size in a frame, is solved directly for some frames.
 constexpr double kStrained = 10;
+constexpr double kSlow = 1e-3;
 constexpr int kPromotedFrames = 120;
 // A body that moves farther than this of its size in a frame is left to the impact search.
 constexpr double kFast = 0.5;
 
 // Whether bodies are in the crowd unless something speaks against it.
-bool is_usual(const CollisionDef& def) {
+bool prefers_crowd(const CollisionDef& def) {
   return def.contact_solver == ContactSolverKind::soft_step ||
          (def.contact_solver == ContactSolverKind::automatic &&
           def.contact_tolerance >= kSoftTolerance);
@@ -74,7 +76,7 @@ Crowd::Crowd(const CollisionState& state)
     kind_.push_back(plane ? Kind::plane : mesh ? Kind::mesh : Kind::solid);
     has_mesh_ = has_mesh_ || mesh;
   }
-  usual_ = is_usual(state.def);
+  usual_ = prefers_crowd(state.def);
   if (usual_) member_ = may_step_;
 }
 
@@ -164,8 +166,10 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
   for (const Eigen::Index i : island.bodies) {
     const auto k = static_cast<std::size_t>(i);
     const double way = crowd_travel(state, i, angular_velocity(state.world(), i), duration);
-    if (way > kFast * least_size(state, i)) return false;
-    if (has(i) && step.strain(i) > kStrained * state.def.contact_tolerance)
+    if (way > kFast * least_size(state, i) && island.bodies.size() <= kMostDirect) return false;
+    const bool slow =
+        duration * linear_velocity(state.world(), i).norm() <= kSlow * least_size(state, i);
+    if (has(i) && slow && step.strain(i) > kStrained * state.def.contact_tolerance)
       promoted_[k] = kPromotedFrames;
     promoted = promoted || promoted_[k] > 0;
     promoted_[k] = std::max(0, promoted_[k] - 1);
