@@ -12,8 +12,9 @@ constexpr double kRoom = 0.05;
 constexpr double kFramesAhead = 4;
 
 // What `auto` goes by.
-// A larger island is too dear for a direct solver: a heap of it takes a tenth of a second a frame.
-constexpr std::size_t kMostDirect = 200;
+// A larger island is too dear for a direct solver; one that moves, whose contacts come and go,
+// sooner than one that rests, whose forces are known from the frame before.
+constexpr std::size_t kMostMoving = 64, kMostResting = 400;
 // A body on its own is solved directly even if that accuracy is not asked for.
 constexpr std::size_t kFewDirect = 1;
 // What soft_step reaches in easy islands, relative to the size: of neighbours at most kMostRatio
@@ -162,19 +163,20 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
   if (kind == ContactSolverKind::soft_step) return true;
   for (const Eigen::Index i : island.bodies)
     if (forced_[static_cast<std::size_t>(i)] == frame_) return true;
-  bool promoted = false;
+  bool promoted = false, rests = true;
   for (const Eigen::Index i : island.bodies) {
     const auto k = static_cast<std::size_t>(i);
     const double way = crowd_travel(state, i, angular_velocity(state.world(), i), duration);
     if (way > kFast * least_size(state, i) && island.bodies.size() <= kMostDirect) return false;
     const bool slow =
         duration * linear_velocity(state.world(), i).norm() <= kSlow * least_size(state, i);
+    rests = rests && slow;
     if (has(i) && slow && step.strain(i) > kStrained * state.def.contact_tolerance)
       promoted_[k] = kPromotedFrames;
     promoted = promoted || promoted_[k] > 0;
     promoted_[k] = std::max(0, promoted_[k] - 1);
   }
-  if (island.bodies.size() > kMostDirect) return true;
+  if (island.bodies.size() > (rests ? kMostResting : kMostMoving)) return true;
   return !promoted && is_easy(state, island);
 }
 
