@@ -167,7 +167,7 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
   for (const Eigen::Index i : island.bodies) {
     const auto k = static_cast<std::size_t>(i);
     const double way = crowd_travel(state, i, angular_velocity(state.world(), i), duration);
-    if (way > kFast * least_size(state, i) && island.bodies.size() <= kMostDirect) return false;
+    if (way > kFast * least_size(state, i) && island.bodies.size() <= kMostMoving) return false;
     const bool slow =
         duration * linear_velocity(state.world(), i).norm() <= kSlow * least_size(state, i);
     rests = rests && slow;
