@@ -13,7 +13,8 @@ constexpr double kFramesAhead = 4;
 
 // What `auto` goes by.
 // A larger island is too dear for a direct solver; one that moves, whose contacts come and go,
-// sooner than one that rests, whose forces are known from the frame before.
+// sooner than one that rests, whose forces are known from the frame before; and any where the crowd
+// is accurate enough as a rule.
 constexpr std::size_t kMostMoving = 64, kMostResting = 400;
 // A body on its own is solved directly even if that accuracy is not asked for.
 constexpr std::size_t kFewDirect = 1;
@@ -167,7 +168,7 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
   for (const Eigen::Index i : island.bodies) {
     const auto k = static_cast<std::size_t>(i);
     const double way = crowd_travel(state, i, angular_velocity(state.world(), i), duration);
-    if (way > kFast * least_size(state, i)) return false;
+    if (way > kFast * least_size(state, i) && island.bodies.size() <= kMostMoving) return false;
     const bool slow =
         duration * linear_velocity(state.world(), i).norm() <= kSlow * least_size(state, i);
     rests = rests && slow;
@@ -176,7 +177,7 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
     promoted = promoted || promoted_[k] > 0;
     promoted_[k] = std::max(0, promoted_[k] - 1);
   }
-  if (island.bodies.size() > (rests ? kMostResting : kMostMoving)) return true;
+  if (island.bodies.size() > (rests && !usual_ ? kMostResting : kMostMoving)) return true;
   return !promoted && is_easy(state, island);
 }
 

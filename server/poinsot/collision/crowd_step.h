@@ -22,7 +22,7 @@ class CrowdStep {
 
   struct Result {
     Tally tally;
-    SoftOutcome outcome;       // sums, and the last residual
+    SoftOutcome outcome;       // sums, and the worst residual
     std::uint32_t bodies = 0;  // stepped
   };
   // Moves the bodies of these islands from the world's time to t_end.
