@@ -17,10 +17,10 @@ constexpr double kTurned = 0.15;
 // Of the speed at which penetration is removed: how well it is met.
 constexpr double kPushedOut = 1e-3;
 // No less than this of the usual sub-step, however fast bodies turn where they touch.
-constexpr double kLeastTurn = 1.0 / 16, kLeastPart = 1e-12;
+constexpr double kLeastTurn = 1.0 / 4, kLeastPart = 1e-12;
 // A slip that goes no farther than this of the tolerance in a sub-step is rest; and nothing shorter
 // than kLeastSlip of a sub-step is stopped for.
-constexpr double kNoSlip = 2;
+constexpr double kNoSlip = 0.2;
 constexpr double kLeastSlip = 1e-3;
 // Of the tolerance: what velocities that are hard to find may be wrong by in a sub-step. When even
 // that takes too many iterations, the next sub-step goes on from the impulses found.
@@ -252,7 +252,8 @@ void ContactStep::resolve(CollisionState& state) {
     const Wrench w = acting_wrench(world, columns_[k]);
     acceleration_[k] = {bodies_[k].inv_mass * w.force, bodies_[k].inv_J_W * w.torque};
   }
-  double h = foresees_ ? h_ : while_turning(state, h_, before_);
+  double h = stops_ ? while_turning(state, h_, before_) : h_;
+  stopped_ = h < h_;
   scale_impulses(h / h_);
   find_forces(state, h);
   for (int attempt = 0; attempt < kTries && !foresees_; ++attempt) {
@@ -331,11 +332,10 @@ double ContactStep::shorter(const CollisionState& state, double h) {
       if (state.is_awake(columns_[k]) && !(travel <= def_.contact_tolerance * arm)) return usual_;
     }
   }
+  if (!stops_) return h;
   constexpr double kMuchTooLong = 0.5;  // of h: less is left to the next sub-step
   const double turning = while_turning(state, h, bodies_);
-  if (turning < kMuchTooLong * h) return turning;
-  if (!stops_) return h;
-  const double end = end_of_slip(state, h);
+  const double end = turning < kMuchTooLong * h ? turning : end_of_slip(state, h);
   stopped_ = stopped_ || end < h;
   return end;
 }
