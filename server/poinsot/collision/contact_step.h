@@ -103,7 +103,6 @@ class ContactStep {
   double while_turning(const CollisionState& state, double h,
                        std::span<const ContactBody> bodies) const;
   double end_of_slip(const CollisionState& state, double h);
-  double inverse_mass(const Contact& contact, const Vec3& point, const Vec3& direction) const;
   void scale_impulses(double by);
   void set_duration(CollisionState& state, double h);
   void remember(CollisionState& state);

@@ -26,6 +26,8 @@ constexpr double kLeastSlip = 1e-3;
 // that takes too many iterations, the next sub-step goes on from the impulses found.
 constexpr double kAcceptable = 0.1, kOfSpeed = 1e-3;  // … and of what moves fastest
 constexpr int kMostIterations = 150;
+// Iterations from which a solve is too dear to be made again for a stop.
+constexpr int kDear = 24;
 // A pair that comes to rest at the end of a sub-step has full friction to this, relative.
 constexpr double kFullSlip = 1e-7;
 // A point is inside its cone by this much, relative: below it an equilibrium is not proven.
@@ -332,7 +334,7 @@ double ContactStep::shorter(const CollisionState& state, double h) {
       if (state.is_awake(columns_[k]) && !(travel <= def_.contact_tolerance * arm)) return usual_;
     }
   }
-  if (!stops_) return h;
+  if (!stops_ || residual_.iterations > kDear) return h;
   constexpr double kMuchTooLong = 0.5;  // of h: less is left to the next sub-step
   const double turning = while_turning(state, h, bodies_);
   const double end = turning < kMuchTooLong * h ? turning : end_of_slip(state, h);
@@ -371,8 +373,7 @@ double ContactStep::end_of_slip(const CollisionState& state, double h) {
   double end = h;
   Slip first;
   for (std::size_t r = 0; r < records_.size(); ++r) {
-    Vec3 slip = Vec3::Zero(), slip_after = Vec3::Zero(), friction = Vec3::Zero(),
-         point = Vec3::Zero();
+    Vec3 slip = Vec3::Zero(), slip_after = Vec3::Zero(), friction = Vec3::Zero();
     double limit = 0, count = 0;
     for (std::size_t i = first_point_[r]; i < first_point_[r + 1]; ++i) {
       const Contact& contact = contacts_[i];
@@ -381,7 +382,6 @@ double ContactStep::end_of_slip(const CollisionState& state, double h) {
       slip_after += slip_of(contact, bodies_);
       friction += contact.friction_impulse / h;
       limit += contact.friction * contact.normal_impulse / h;
-      point += contact.point;
       ++count;
     }
     if (count == 0 || limit <= 0) continue;
@@ -395,10 +395,8 @@ double ContactStep::end_of_slip(const CollisionState& state, double h) {
     double inv_end;
     if (slip_.record == now.record && slip_.inv_h != now.inv_h) {  // secant
       inv_end = now.inv_h - excess * (now.inv_h - slip_.inv_h) / (excess - slip_.excess);
-    } else {
-      const Contact& contact = contacts_[first_point_[r]];
-      inv_end =
-          now.inv_h - excess * inverse_mass(contact, point / count, slip.normalized()) / speed;
+    } else {  // as if nothing but this friction slowed it
+      inv_end = now.inv_h * limit / std::max(limit + excess, kLeastPart * limit);
     }
     const double at = 1 / inv_end;
     if (!(at > kLeastSlip * usual_ && at < end)) continue;
@@ -407,18 +405,6 @@ double ContactStep::end_of_slip(const CollisionState& state, double h) {
   }
   slip_ = first;
   return end;
-}
-
-// Of the relative velocity of a pair's points under impulses along `direction` [1/kg].
-double ContactStep::inverse_mass(const Contact& contact, const Vec3& point,
-                                 const Vec3& direction) const {
-  double sum = 0;
-  for (const int body : {contact.a, contact.b}) {
-    const ContactBody& b = bodies_[static_cast<std::size_t>(body)];
-    const Vec3 moment = (point - b.c).cross(direction);
-    sum += b.inv_mass + moment.dot(b.inv_J_W * moment);
-  }
-  return sum;
 }
 
 double ContactStep::sound_part(const CollisionState& state) const {
