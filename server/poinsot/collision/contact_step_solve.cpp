@@ -25,7 +25,7 @@ constexpr double kLeastSlip = 1e-3;
 // Of the tolerance: what velocities that are hard to find may be wrong by in a sub-step. When even
 // that takes too many iterations, the next sub-step goes on from the impulses found.
 constexpr double kAcceptable = 0.1, kOfSpeed = 1e-3;  // … and of what moves fastest
-constexpr int kMostIterations = 150;
+constexpr int kMostIterations = 150, kProofIterations = 60;
 // Iterations from which a solve is too dear to be made again for a stop.
 constexpr int kDear = 24;
 // A pair that comes to rest at the end of a sub-step has full friction to this, relative.
@@ -137,6 +137,8 @@ bool ContactStep::proves_rest(CollisionState& state) {
   target_.assign(contacts_.size(), 0);
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     target_[i] = -std::max(contacts_[i].gap, 0.0) / h_;
+  solver_.max_iterations = kProofIterations;
+  solver_.acceptable = 0;
   if (!solver_.solve(bodies_, contacts_, target_).converged) return false;
   remember(state);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -169,6 +171,8 @@ void ContactStep::push_out(CollisionState& state, Books& books) {
   }
   const double tolerance = solver_.tolerance;
   solver_.tolerance = kPushedOut * *std::max_element(target_.begin(), target_.end());
+  solver_.max_iterations = kMostIterations;
+  solver_.acceptable = solver_.tolerance;
   solver_.push_out(bodies_, contacts_, target_);
   solver_.tolerance = tolerance;
   for (Contact& contact : contacts_) contact.gap += h_ * relative_speed(contact, bodies_);
@@ -224,6 +228,8 @@ void ContactStep::foresee_impacts(CollisionState& state, Books& books) {
     contact.friction_impulse.setZero();
   }
   before_ = bodies_;
+  solver_.max_iterations = kMostIterations;
+  solver_.acceptable = kAcceptable * def_.contact_tolerance * least_size_ / h_;
   solver_.solve(bodies_, impacts_, target_);
   for (const Contact& contact : impacts_) {
     const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
