@@ -93,7 +93,8 @@ TEST(HardStatics, FastTowersOfEqualBoxesStandToAMillimetre) {
 }
 
 // D12: n bricks of length 1, each shifted by 1/(2k) over the one below, reach out by half the
-// harmonic number and no more.
+// harmonic number and no more. All shifts are `more` longer, so that none is in neutral equilibrium:
+// that would fall by its rounding.
 Scene overhang(int n, double more) {
   Scene scene = test::scene(std::vector<BodyDef>());
   BodyDef table = test::box("table", {-5, 0, -0.5}, {10, 10, 1});
@@ -103,7 +104,7 @@ Scene overhang(int n, double more) {
   scene.bodies.push_back(table);
   double edge = 0;  // of what carries the brick
   for (int k = n; k >= 1; --k) {
-    edge += 0.5 / k + (k == n ? more : 0);
+    edge += 0.5 / k * (1 + more);
     BodyDef brick = test::box("brick " + std::to_string(k), {edge - 0.5, 0, 0.05 + 0.1 * (n - k)},
                               {1, 0.5, 0.1}, 1);
     brick.material.friction = 0.5;
@@ -112,7 +113,7 @@ Scene overhang(int n, double more) {
   return scene;
 }
 
-TEST(HardStatics, HarmonicOverhangsStandAMillimetreInsideAndFallAMillimetreBeyond) {
+TEST(HardStatics, HarmonicOverhangsStandAThousandthInsideAndFallAThousandthBeyond) {
   for (const int n : {4, 10, 31}) {
     const auto sinks = [&](double more) {
       Scene scene = test::with_profile(overhang(n, more), Profile::accurate);

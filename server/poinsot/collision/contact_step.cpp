@@ -21,6 +21,7 @@ void ContactStep::begin(const CollisionState& state, double h, double usual, boo
   local_of_.resize(static_cast<std::size_t>(state.world().size()), -1);
   h_ = h;
   usual_ = std::min(usual, h);
+  least_size_ = std::numeric_limits<double>::infinity();
   slip_ = {};
   residual_ = {};
   iterations_ = 0;
@@ -84,6 +85,7 @@ void ContactStep::add(CollisionState& state, int index) {
   const auto b = static_cast<std::size_t>(local(state, record.b));
   for (const std::size_t k : {a, b})
     room_[k] = std::min(room_[k], 0.5 * def_.contact_margin * record.size);
+  least_size_ = std::min(least_size_, record.size);
   PairContact& contact = state.pairs.contact(record);
   contact.digest = 0;
   if (is_near(state, index)) {
@@ -102,7 +104,8 @@ void ContactStep::add(CollisionState& state, int index) {
       awaited_.push_back({index, p});
       continue;
     }
-    points_.push_back({static_cast<int>(records_.size()), static_cast<int>(k)});
+    points_.push_back({static_cast<int>(records_.size()), static_cast<int>(k), p.position, p.normal,
+                       motion_of(state, record, p)});
     Contact c;
     c.a = static_cast<int>(a);
     c.b = static_cast<int>(b);

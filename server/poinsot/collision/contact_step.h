@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "poinsot/collision/collision_state.h"
+#include "poinsot/collision/point_motion.h"
 #include "poinsot/contact/convex_newton.h"
 
 namespace poinsot {
@@ -80,8 +81,10 @@ class ContactStep {
 
  private:
   struct Point {
-    int record;  // index into records_
-    int index;   // into its points
+    int record;             // index into records_
+    int index;              // into its points
+    Vec3 position, normal;  // [m] in W, at the start of the sub-step
+    PointMotion motion;
   };
 
   int local(const CollisionState& state, Eigen::Index column);
@@ -92,7 +95,10 @@ class ContactStep {
   bool choose_targets(CollisionState& state);
   void foresee_impacts(CollisionState& state, Books& books);
   void resolve(CollisionState& state);
-  SolveResidual find_forces(double h);
+  void find_forces(const CollisionState& state, double h);
+  void place_middle(const CollisionState& state, double h);
+  void place_bodies(const CollisionState& state, double h);
+  Vec3 slip_at_start(std::size_t i) const;
   void act(CollisionState& state);
   double shorter(const CollisionState& state, double h);
   double while_turning(const CollisionState& state, double h,
@@ -108,6 +114,7 @@ class ContactStep {
   CollisionDef def_;
   ConvexNewton solver_;
   double h_ = 0, usual_ = 0;
+  double least_size_ = 0;  // [m] of the pairs added
   bool foresees_ = true, stops_ = false, stopped_ = false;
   std::vector<Awaited> awaited_;
   std::vector<int> local_of_;          // per column; −1: none

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "poinsot/collision/contact_step.h"
+#include "poinsot/math/elementary.h"
 #include "poinsot/math/rotation.h"
 
 namespace poinsot {
@@ -16,11 +17,15 @@ constexpr double kTurned = 0.15;
 // Of the speed at which penetration is removed: how well it is met.
 constexpr double kPushedOut = 1e-3;
 // No less than this of the usual sub-step, however fast bodies turn where they touch.
-constexpr double kLeastTurn = 1.0 / 64;
+constexpr double kLeastTurn = 1.0 / 16, kLeastPart = 1e-12;
 // A slip that goes no farther than this of the tolerance in a sub-step is rest; and nothing shorter
 // than kLeastSlip of a sub-step is stopped for.
-constexpr double kNoSlip = 1e-2;
-constexpr double kLeastSlip = 1e-6;
+constexpr double kNoSlip = 2;
+constexpr double kLeastSlip = 1e-3;
+// Of the tolerance: what velocities that are hard to find may be wrong by in a sub-step. When even
+// that takes too many iterations, the next sub-step goes on from the impulses found.
+constexpr double kAcceptable = 0.1, kOfSpeed = 1e-3;  // … and of what moves fastest
+constexpr int kMostIterations = 150;
 // A pair that comes to rest at the end of a sub-step has full friction to this, relative.
 constexpr double kFullSlip = 1e-7;
 // A point is inside its cone by this much, relative: below it an equilibrium is not proven.
@@ -37,8 +42,8 @@ double relative_speed(const Contact& contact, std::span<const ContactBody> bodie
 Vec3 slip_of(const Contact& contact, std::span<const ContactBody> bodies) {
   const ContactBody& a = bodies[static_cast<std::size_t>(contact.a)];
   const ContactBody& b = bodies[static_cast<std::size_t>(contact.b)];
-  const Vec3 v =
-      (a.v + a.omega.cross(contact.point - a.c)) - (b.v + b.omega.cross(contact.point - b.c));
+  const Vec3 v = contact.carried + (a.v + a.omega.cross(contact.point - a.c)) -
+                 (b.v + b.omega.cross(contact.point - b.c));
   return v - contact.normal.dot(v) * contact.normal;
 }
 
@@ -250,13 +255,13 @@ void ContactStep::resolve(CollisionState& state) {
   }
   double h = foresees_ ? h_ : while_turning(state, h_, before_);
   scale_impulses(h / h_);
-  residual_ = find_forces(h);
+  find_forces(state, h);
   for (int attempt = 0; attempt < kTries && !foresees_; ++attempt) {
     const double next = shorter(state, h);
     if (next == h) break;
     scale_impulses(next / h);
     h = next;
-    residual_ = find_forces(h);
+    find_forces(state, h);
   }
   set_duration(state, h);
   act(state);
@@ -269,17 +274,23 @@ void ContactStep::scale_impulses(double by) {
   }
 }
 
-SolveResidual ContactStep::find_forces(double h) {
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
-    bodies_[k] = before_[k];
-    bodies_[k].v += h * acceleration_[k].linear;
-    bodies_[k].omega += h * acceleration_[k].angular;
-  }
+void ContactStep::find_forces(const CollisionState& state, double h) {
+  place_middle(state, h);
+  // A gap that the last sub-steps left is not closed in one that is cut short: nothing would push.
+  const double longest = foresees_ ? h : std::max(h, usual_);
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    target_[i] = -std::max(contacts_[i].gap, 0.0) / h;
-  const SolveResidual residual = solver_.solve(bodies_, contacts_, target_);
-  iterations_ += residual.iterations;
-  return residual;
+    target_[i] = -std::max(contacts_[i].gap, 0.0) / longest;
+  solver_.max_iterations = kMostIterations;
+  double fastest = 0;  // what stands has to be found for sure
+  for (std::size_t k = 0; k < columns_.size(); ++k)
+    if (before_[k].inv_mass > 0)
+      fastest =
+          std::max(fastest, before_[k].v.norm() + state.arm[static_cast<std::size_t>(columns_[k])] *
+                                                      before_[k].omega.norm());
+  solver_.acceptable =
+      std::min(kAcceptable * def_.contact_tolerance * least_size_ / h, kOfSpeed * fastest);
+  residual_ = solver_.solve(bodies_, contacts_, target_);
+  iterations_ += residual_.iterations;
 }
 
 void ContactStep::set_duration(CollisionState& state, double h) {
@@ -326,21 +337,26 @@ double ContactStep::shorter(const CollisionState& state, double h) {
   return end;
 }
 
-// While bodies with corners turn about where they touch, these leave the planes of contact by the
-// square of the angle: how long, at most h, until that exceeds the tolerance.
+// While bodies turn about where they touch, what is touched leaves the plane of contact by the cube
+// of the angle, of what rolls on corners by its square: how long, at most h, until that exceeds the
+// tolerance.
 double ContactStep::while_turning(const CollisionState& state, double h,
                                   std::span<const ContactBody> bodies) const {
   double longest = h;
-  for (const Contact& contact : contacts_) {
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
     if (!(contact.normal_impulse > 0)) continue;
+    const bool rolls = points_[i].motion.is_round_a || points_[i].motion.is_round_b;
     for (const int body : {contact.a, contact.b}) {
       const auto k = static_cast<std::size_t>(body);
       if (!state.has_corners[static_cast<std::size_t>(columns_[k])]) continue;
       const Vec3 omega = bodies[k].omega - contact.normal.dot(bodies[k].omega) * contact.normal;
-      const double arm = (contact.point - bodies[k].c).norm();
-      const double allowed = def_.contact_tolerance * arm;
-      const double error = 0.5 * omega.squaredNorm() * h * h * arm;
-      if (error > allowed) longest = std::min(longest, h * std::sqrt(allowed / error));
+      const double angle = h * omega.norm();
+      const double change = h * (bodies[k].omega - before_[k].omega).norm();
+      const double error = rolls ? 0.5 * angle * angle : angle * (angle * angle / 12 + change);
+      if (!(error > def_.contact_tolerance)) continue;
+      const double part = std::max(def_.contact_tolerance / error, kLeastPart);
+      longest = std::min(longest, h * (rolls ? std::sqrt(part) : power(part, 1.0 / 3)));
     }
   }
   return std::max(longest, std::min(h, kLeastTurn * usual_));
@@ -358,7 +374,7 @@ double ContactStep::end_of_slip(const CollisionState& state, double h) {
     for (std::size_t i = first_point_[r]; i < first_point_[r + 1]; ++i) {
       const Contact& contact = contacts_[i];
       if (!(contact.normal_impulse > 0)) continue;
-      slip += slip_of(contact, before_);
+      slip += slip_at_start(i);
       slip_after += slip_of(contact, bodies_);
       friction += contact.friction_impulse / h;
       limit += contact.friction * contact.normal_impulse / h;

@@ -132,7 +132,7 @@ void IslandMotion::advance(CollisionState& state, Island& island, double t_end,
               island_of,
               island_of[static_cast<std::size_t>(island.bodies.front())],
               impacts,
-              impacts,
+              std::max(kUsualSteps, (t_end - t) / usual * kUsualSteps),
               impacts * static_cast<double>(island.bodies.size()),
               state.def.impact_search == ImpactSearchKind::none};
   while (t < t_end && island.strays.empty()) {

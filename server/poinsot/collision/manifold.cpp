@@ -173,6 +173,19 @@ Choice choose_points(std::span<const Candidate> candidates, double same_gap) {
   for (const Candidate& c : candidates) least = std::min(least, c.gap);
   std::size_t deepest = 0;
   while (candidates[deepest].gap > least + same_gap) ++deepest;
+  // Of those equally deep, the one that is farthest from the first is a corner of them all; the
+  // first may lie on an edge, and one corner of four would be left out.
+  const std::size_t first = deepest;
+  const auto distance2 = [](const Candidate& a, const Candidate& b) {
+    return (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v);
+  };
+  double farthest = same_gap * same_gap;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const double distance = distance2(candidates[i], candidates[first]);
+    if (candidates[i].gap > least + same_gap || distance <= farthest) continue;
+    farthest = distance * (1 + 1e-9);
+    deepest = i;
+  }
   choice.index[0] = deepest;
   choice.count = 1;
   // Appends the candidate of the largest measure, the first on a tie, if that is above `bar`.
@@ -189,9 +202,6 @@ Choice choose_points(std::span<const Candidate> candidates, double same_gap) {
     return true;
   };
   const Candidate& p = candidates[deepest];
-  const auto distance2 = [](const Candidate& a, const Candidate& b) {
-    return (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v);
-  };
   const auto area = [](const Candidate& a, const Candidate& b, const Candidate& c) {
     return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
   };

@@ -75,8 +75,8 @@ struct Candidate {
 
 // Which up to four candidates span a manifold best: the deepest, the farthest from it, the one that
 // spans the largest triangle with both, and the farthest beyond that triangle; of points on a line
-// its ends and the deepest. Of candidates equally deep to within `same_gap` [m] the first is the
-// deepest, so that the choice does not jump with the last bits of a resting body.
+// its ends and the deepest. Of candidates equally deep to within `same_gap` [m] it
+// starts with a corner of theirs: with the same one, whatever the last bits of a resting body.
 struct Choice {
   std::array<std::size_t, Manifold::kMaxPoints> index;
   int count = 0;

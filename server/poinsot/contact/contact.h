@@ -25,6 +25,9 @@ struct Contact {
   double gap = 0;    // [m] > 0 apart, < 0 penetrating
   double restitution = 0;
   double friction = 0;
+  // [m/s] in W: what the relative velocity that counts has beside that of the bodies at `point`,
+  // because arms turn until it does. ConvexNewton only.
+  Vec3 carried = Vec3::Zero();
 
   // Impulse on a (and its opposite on b) [N·s]: the start of the next solve.
   double normal_impulse = 0;             // ≥ 0

@@ -43,6 +43,8 @@ constexpr double kInnerSpeed = 1e-8;  // [m/s] … but to this at least
 // shifts where the normal impulse nearly drives a point into the ground.
 constexpr double kSecondAttempt = 1e-2;
 constexpr int kPatience = 15;  // passes without progress that end a solve
+constexpr int kMany = 12;      // iterations after which what is acceptable is accepted, and
+                               // with the fourth power of their number more
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -106,6 +108,11 @@ SolveResidual ConvexNewton::improve(double residual, bool first) {
   return pass.run(problem, kMuchNearer * residual, tolerable, max_iterations - pass.iterations);
 }
 
+double ConvexNewton::acceptable_after(int iterations) const {
+  const double many = static_cast<double>(iterations) / kMany;
+  return many < 1 ? 0 : acceptable * many * many * many * many;
+}
+
 SolveResidual ConvexNewton::iterate() {
   NewtonProblem& problem = scratch_->problem;
   NewtonPass& pass = scratch_->pass;
@@ -122,7 +129,8 @@ SolveResidual ConvexNewton::iterate() {
       best_pass = k;
       scratch_->keep();
     }
-    least.converged = least.worst() <= std::max(tolerance, problem.rounding());
+    const double asked = std::max(tolerance, acceptable_after(pass.iterations));
+    least.converged = least.worst() <= std::max(asked, problem.rounding());
     if (least.converged || k >= max_passes || pass.iterations >= max_iterations ||
         k - std::max(best_pass, stilled_pass) > kPatience)
       break;

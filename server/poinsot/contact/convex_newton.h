@@ -32,6 +32,8 @@ namespace poinsot {
 class ConvexNewton {
  public:
   double tolerance = 1e-10;  // [m/s] residual that ends the passes, or the rounding of the loads
+  double acceptable = 0;     // [m/s] residual that ends a solve of many iterations;
+                             // the more of them, the more is acceptable
   int max_passes = 60;
   int max_iterations = 200;  // all passes together
 
@@ -58,6 +60,7 @@ class ConvexNewton {
 
   SolveResidual improve(double residual, bool first);
   SolveResidual iterate();
+  double acceptable_after(int iterations) const;
 
   std::unique_ptr<Scratch> scratch_;
 };

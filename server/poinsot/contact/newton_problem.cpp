@@ -82,11 +82,11 @@ void NewtonProblem::load_bodies(std::span<const ContactBody> from) {
 }
 
 void NewtonProblem::add(NewtonPoint& point, const Vec3& place, std::span<const ContactBody> from,
-                        int a, int b) {
+                        int a, int b, Vec3 carried) {
   point.a = moving_[at(a)];
   point.b = moving_[at(b)];
   if (point.a == kUnsound || point.b == kUnsound || point.a == point.b) return;
-  Vec3 w = Vec3::Zero(), carried = Vec3::Zero();
+  Vec3 w = Vec3::Zero();
   const auto side = [&](int source, int body, double sign, Vec3& arm) {
     arm = place - from[at(source)].c;
     if (body == kFixed) {
@@ -122,7 +122,8 @@ void NewtonProblem::load(std::span<const ContactBody> from, std::span<const Cont
   point.joint = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
-    const double sum = contact.point.sum() + contact.normal.sum() + contact.friction + target[i];
+    const double sum = contact.point.sum() + contact.normal.sum() + contact.friction +
+                       contact.carried.sum() + target[i];
     if (!std::isfinite(sum + 1 / contact.normal.squaredNorm())) continue;
     const Vec3 t = perpendicular(contact.normal);
     point.frame << contact.normal, t, contact.normal.cross(t);
@@ -135,7 +136,7 @@ void NewtonProblem::load(std::span<const ContactBody> from, std::span<const Cont
       point.trial[0] = contact.normal_impulse;
       point.trial = within_cone(point.trial, point.friction);
     }
-    add(point, contact.point, from, contact.a, contact.b);
+    add(point, contact.point, from, contact.a, contact.b, contact.carried);
   }
   point.joint = true;
   point.frame.setIdentity();
@@ -146,7 +147,7 @@ void NewtonProblem::load(std::span<const ContactBody> from, std::span<const Cont
     point.source = static_cast<int>(i);
     point.target = joint.target;
     point.trial = warm ? joint.impulse : Vec3(Vec3::Zero());
-    add(point, joint.point, from, joint.a, joint.b);
+    add(point, joint.point, from, joint.a, joint.b, Vec3::Zero());
   }
   pushes_.resize(bodies.size());
   moments_.resize(bodies.size());

@@ -73,7 +73,8 @@ class NewtonProblem {
 
  private:
   void load_bodies(std::span<const ContactBody> from);
-  void add(NewtonPoint& point, const Vec3& at, std::span<const ContactBody> from, int a, int b);
+  void add(NewtonPoint& point, const Vec3& at, std::span<const ContactBody> from, int a, int b,
+           Vec3 carried);
 
   SolveResidual measure_trial() const;
 
