@@ -164,7 +164,7 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
   if (kind == ContactSolverKind::convex_newton || !may_step(state, island)) return false;
   if (kind == ContactSolverKind::soft_step) return true;
   for (const Eigen::Index i : island.bodies)
-    if (forced_[static_cast<std::size_t>(i)] == frame_) return true;
+    if (forced_[static_cast<std::size_t>(i)] >= frame_) return true;
   bool promoted = false, rests = true;
   for (const Eigen::Index i : island.bodies) {
     const auto k = static_cast<std::size_t>(i);

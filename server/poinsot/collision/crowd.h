@@ -48,8 +48,11 @@ class Crowd {
 
   // Whether bodies are in the crowd unless something speaks against it.
   bool is_usual() const { return usual_; }
-  // What body i is in is stepped with the crowd in this frame, if it can be.
-  void force(Eigen::Index i) { forced_[static_cast<std::size_t>(i)] = frame_; }
+  // What body i is in is stepped with the crowd in this frame and some more, if it can be.
+  void force(Eigen::Index i) {
+    constexpr std::uint64_t kFrames = 20;
+    forced_[static_cast<std::size_t>(i)] = frame_ + kFrames;
+  }
   void next_frame() { ++frame_; }
 
   // Whether an island is stepped with the crowd in the frame that begins. `step`: the last one.
@@ -74,7 +77,7 @@ class Crowd {
 
   std::vector<int> level_;  // per body: of a stack, while it is counted
   std::uint64_t frame_ = 1;
-  std::vector<std::uint64_t> forced_;  // per body: the frame for which it is
+  std::vector<std::uint64_t> forced_;  // per body: the frame until which it is
   std::vector<int> promoted_;          // per body: frames for which it is solved directly
 };
 
