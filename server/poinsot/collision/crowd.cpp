@@ -18,8 +18,9 @@ constexpr double kFramesAhead = 4;
 constexpr std::size_t kMostMoving = 64, kMostResting = 400;
 // A body on its own is solved directly even if that accuracy is not asked for.
 constexpr std::size_t kFewDirect = 1;
-// Easy islands: of neighbours at most kMostRatio times as heavy as one another, at most kMostLevels
-// on one another.
+// Easy islands: of bodies less than kMostRatio
+// times as heavy as one another (steps of it add up in a stack), at most kMostLevels on one
+// another.
 constexpr double kMostRatio = 10;
 constexpr int kMostLevels = 12;
 // An island that is strained by so many times its tolerance though it hardly moves, by kSlow of its
@@ -184,14 +185,12 @@ bool Crowd::is_easy(const CollisionState& state, const Island& island) {
   if (state.def.contact_tolerance < kSoftTolerance || island.bodies.size() <= kFewDirect)
     return false;
   const World& world = state.world();
-  for (const int r : island.records) {
-    const PairRecord& record = state.pairs.records()[static_cast<std::size_t>(r)];
-    if (!record.standing) continue;
-    if (!world.moves(record.a) || !world.moves(record.b)) continue;
-    const double a = world.mass[static_cast<std::size_t>(record.a)];
-    const double b = world.mass[static_cast<std::size_t>(record.b)];
-    if (std::max(a, b) > kMostRatio * std::min(a, b)) return false;
+  double lightest = std::numeric_limits<double>::infinity(), heaviest = 0;
+  for (const Eigen::Index i : island.bodies) {
+    lightest = std::min(lightest, world.mass[static_cast<std::size_t>(i)]);
+    heaviest = std::max(heaviest, world.mass[static_cast<std::size_t>(i)]);
   }
+  if (heaviest >= kMostRatio * lightest) return false;
   return is_shallow(state, island);
 }
 
