@@ -18,10 +18,8 @@ constexpr double kFramesAhead = 4;
 constexpr std::size_t kMostMoving = 64, kMostResting = 400;
 // A body on its own is solved directly even if that accuracy is not asked for.
 constexpr std::size_t kFewDirect = 1;
-// What soft_step reaches in easy islands, relative to the size: of bodies less than kMostRatio
-// times as heavy as one another (steps of it add up in a stack), at most kMostLevels on one
-// another.
-constexpr double kSoftTolerance = 1e-4;
+// Easy islands: of bodies less than kMostRatio times as heavy as one another (steps of it add up in
+// a stack), at most kMostLevels on one another.
 constexpr double kMostRatio = 10;
 constexpr int kMostLevels = 12;
 // An island that is strained by so many times its tolerance though it hardly moves, by kSlow of its
@@ -85,7 +83,7 @@ Crowd::Crowd(const CollisionState& state)
 
 void Crowd::set_member(Eigen::Index i, bool member) {
   const auto k = static_cast<std::size_t>(i);
-  member_[k] = member || (usual_ && may_step_[k] != 0) ? 1 : 0;
+  member_[k] = member && may_step_[k] != 0 ? 1 : 0;
 }
 
 void Crowd::look(const CollisionState& state, double h, Team& team) {
@@ -140,7 +138,6 @@ bool Crowd::is_near(const CollisionState& state, const PairRecord& record) const
   return box(record.pair.a, record.a).overlaps(box(record.pair.b, record.b));
 }
 
-// Whether soft_step knows all that acts on an island, and the crowd all its shapes.
 bool Crowd::may_step(const CollisionState& state, const Island& island) const {
   const World& world = state.world();
   for (const Eigen::Index i : island.bodies) {

@@ -55,6 +55,8 @@ class Crowd {
   }
   void next_frame() { ++frame_; }
 
+  // Whether soft_step knows all that acts on an island, and the crowd all its shapes.
+  bool may_step(const CollisionState& state, const Island& island) const;
   // Whether an island is stepped with the crowd in the frame that begins. `step`: the last one.
   bool takes(const CollisionState& state, const Island& island, const CrowdStep& step,
              double duration);
@@ -62,7 +64,6 @@ class Crowd {
  private:
   bool look(const CollisionState& state, Eigen::Index i, double h);
   bool is_near(const CollisionState& state, const PairRecord& record) const;
-  bool may_step(const CollisionState& state, const Island& island) const;
   bool is_easy(const CollisionState& state, const Island& island);
   bool is_shallow(const CollisionState& state, const Island& island);
 

@@ -16,6 +16,9 @@
 
 namespace poinsot {
 
+// [-] What soft_step reaches in easy islands, relative to the size.
+inline constexpr double kSoftTolerance = 1e-4;
+
 class CrowdStep {
  public:
   explicit CrowdStep(const CollisionState& state);

@@ -382,12 +382,18 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
 void FrameMotion::choose_crowd(double t_end) {
   const double duration = t_end - state_.world().time;
   for (std::size_t k = 0; k < excited_.size(); ++k)
-    if (islands_.island_of[k] < 0) crowd_.set_member(static_cast<Eigen::Index>(k), false);
+    if (islands_.island_of[k] < 0)
+      crowd_.set_member(static_cast<Eigen::Index>(k), crowd_.is_usual());
   for (Island& island : islands_.all()) {
     if (!island.fresh) continue;
     island.fresh = false;
-    island.crowd = crowd_.takes(state_, island, crowd_step_, duration);
-    for (const Eigen::Index i : island.bodies) crowd_.set_member(i, island.crowd);
+    const bool crowd = crowd_.takes(state_, island, crowd_step_, duration);
+    // Who was looked at as one of the crowd has no boxes for anything else: he leaves it a frame
+    // later.
+    const bool leaves = std::any_of(island.bodies.begin(), island.bodies.end(),
+                                    [&](Eigen::Index i) { return crowd_.has(i); });
+    island.crowd = crowd || (leaves && crowd_.may_step(state_, island));
+    for (const Eigen::Index i : island.bodies) crowd_.set_member(i, crowd);
     if (island.crowd) {
       island.result.clear();
       island.strays.clear();
