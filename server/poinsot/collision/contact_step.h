@@ -41,11 +41,11 @@ class ContactStep {
   };
 
   // Of the pairs that follow. If impacts are not foreseen, points on their way in are awaited, and
-  // the sub-step is made shorter: to `usual` unless everything rests, further where that keeps the
-  // error of positions below the scene's tolerance, and, if it `stops` for that, to when a sliding
-  // pair comes to rest.
+  // the sub-step is made shorter: to `usual` unless everything rests, and, if it `stops` for that,
+  // to when a sliding pair comes to rest, or where bodies would turn too far for the scene's
+  // tolerance.
   void begin(const CollisionState& state, double h, double usual, bool foresees, bool stops);
-  // Whether the sub-step ends where a sliding pair came to rest.
+  // Whether the sub-step is shorter than usual because it stops.
   bool stopped() const { return stopped_; }
   // [s] of the sub-step that was solved.
   double duration() const { return h_; }
@@ -104,7 +104,6 @@ class ContactStep {
   double while_turning(const CollisionState& state, double h,
                        std::span<const ContactBody> bodies) const;
   double end_of_slip(const CollisionState& state, double h);
-  double inverse_mass(const Contact& contact, const Vec3& point, const Vec3& direction) const;
   void scale_impulses(double by);
   void set_duration(CollisionState& state, double h);
   void remember(CollisionState& state);

@@ -17,15 +17,17 @@ constexpr double kTurned = 0.15;
 // Of the speed at which penetration is removed: how well it is met.
 constexpr double kPushedOut = 1e-3;
 // No less than this of the usual sub-step, however fast bodies turn where they touch.
-constexpr double kLeastTurn = 1.0 / 16, kLeastPart = 1e-12;
+constexpr double kLeastTurn = 1.0 / 4, kLeastPart = 1e-12;
 // A slip that goes no farther than this of the tolerance in a sub-step is rest; and nothing shorter
 // than kLeastSlip of a sub-step is stopped for.
-constexpr double kNoSlip = 2;
+constexpr double kNoSlip = 0.2;
 constexpr double kLeastSlip = 1e-3;
 // Of the tolerance: what velocities that are hard to find may be wrong by in a sub-step. When even
 // that takes too many iterations, the next sub-step goes on from the impulses found.
 constexpr double kAcceptable = 0.1, kOfSpeed = 1e-3;  // … and of what moves fastest
-constexpr int kMostIterations = 150;
+constexpr int kMostIterations = 150, kProofIterations = 60;
+// Iterations from which a solve is too dear to be made again for a stop.
+constexpr int kDear = 24;
 // A pair that comes to rest at the end of a sub-step has full friction to this, relative.
 constexpr double kFullSlip = 1e-7;
 // A point is inside its cone by this much, relative: below it an equilibrium is not proven.
@@ -136,6 +138,8 @@ bool ContactStep::proves_rest(CollisionState& state) {
   target_.assign(contacts_.size(), 0);
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     target_[i] = -std::max(contacts_[i].gap, 0.0) / h_;
+  solver_.max_iterations = kProofIterations;
+  solver_.acceptable = 0;
   if (!solver_.solve(bodies_, contacts_, target_).converged) return false;
   remember(state);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -168,6 +172,8 @@ void ContactStep::push_out(CollisionState& state, Books& books) {
   }
   const double tolerance = solver_.tolerance;
   solver_.tolerance = kPushedOut * *std::max_element(target_.begin(), target_.end());
+  solver_.max_iterations = kMostIterations;
+  solver_.acceptable = solver_.tolerance;
   iterations_ += solver_.push_out(bodies_, contacts_, target_).iterations;
   solver_.tolerance = tolerance;
   for (Contact& contact : contacts_) contact.gap += h_ * relative_speed(contact, bodies_);
@@ -223,6 +229,8 @@ void ContactStep::foresee_impacts(CollisionState& state, Books& books) {
     contact.friction_impulse.setZero();
   }
   before_ = bodies_;
+  solver_.max_iterations = kMostIterations;
+  solver_.acceptable = kAcceptable * def_.contact_tolerance * least_size_ / h_;
   iterations_ += solver_.solve(bodies_, impacts_, target_).iterations;
   for (const Contact& contact : impacts_) {
     const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
@@ -253,7 +261,8 @@ void ContactStep::resolve(CollisionState& state) {
     const Wrench w = acting_wrench(world, columns_[k]);
     acceleration_[k] = {bodies_[k].inv_mass * w.force, bodies_[k].inv_J_W * w.torque};
   }
-  double h = foresees_ ? h_ : while_turning(state, h_, before_);
+  double h = stops_ ? while_turning(state, h_, before_) : h_;
+  stopped_ = h < h_;
   scale_impulses(h / h_);
   find_forces(state, h);
   for (int attempt = 0; attempt < kTries && !foresees_; ++attempt) {
@@ -328,11 +337,10 @@ double ContactStep::shorter(const CollisionState& state, double h) {
       if (state.is_awake(columns_[k]) && !(travel <= def_.contact_tolerance * arm)) return usual_;
     }
   }
+  if (!stops_ || residual_.iterations > kDear) return h;
   constexpr double kMuchTooLong = 0.5;  // of h: less is left to the next sub-step
   const double turning = while_turning(state, h, bodies_);
-  if (turning < kMuchTooLong * h) return turning;
-  if (!stops_) return h;
-  const double end = end_of_slip(state, h);
+  const double end = turning < kMuchTooLong * h ? turning : end_of_slip(state, h);
   stopped_ = stopped_ || end < h;
   return end;
 }
@@ -368,8 +376,7 @@ double ContactStep::end_of_slip(const CollisionState& state, double h) {
   double end = h;
   Slip first;
   for (std::size_t r = 0; r < records_.size(); ++r) {
-    Vec3 slip = Vec3::Zero(), slip_after = Vec3::Zero(), friction = Vec3::Zero(),
-         point = Vec3::Zero();
+    Vec3 slip = Vec3::Zero(), slip_after = Vec3::Zero(), friction = Vec3::Zero();
     double limit = 0, count = 0;
     for (std::size_t i = first_point_[r]; i < first_point_[r + 1]; ++i) {
       const Contact& contact = contacts_[i];
@@ -378,7 +385,6 @@ double ContactStep::end_of_slip(const CollisionState& state, double h) {
       slip_after += slip_of(contact, bodies_);
       friction += contact.friction_impulse / h;
       limit += contact.friction * contact.normal_impulse / h;
-      point += contact.point;
       ++count;
     }
     if (count == 0 || limit <= 0) continue;
@@ -392,10 +398,8 @@ double ContactStep::end_of_slip(const CollisionState& state, double h) {
     double inv_end;
     if (slip_.record == now.record && slip_.inv_h != now.inv_h) {  // secant
       inv_end = now.inv_h - excess * (now.inv_h - slip_.inv_h) / (excess - slip_.excess);
-    } else {
-      const Contact& contact = contacts_[first_point_[r]];
-      inv_end =
-          now.inv_h - excess * inverse_mass(contact, point / count, slip.normalized()) / speed;
+    } else {  // as if nothing but this friction slowed it
+      inv_end = now.inv_h * limit / std::max(limit + excess, kLeastPart * limit);
     }
     const double at = 1 / inv_end;
     if (!(at > kLeastSlip * usual_ && at < end)) continue;
@@ -404,18 +408,6 @@ double ContactStep::end_of_slip(const CollisionState& state, double h) {
   }
   slip_ = first;
   return end;
-}
-
-// Of the relative velocity of a pair's points under impulses along `direction` [1/kg].
-double ContactStep::inverse_mass(const Contact& contact, const Vec3& point,
-                                 const Vec3& direction) const {
-  double sum = 0;
-  for (const int body : {contact.a, contact.b}) {
-    const ContactBody& b = bodies_[static_cast<std::size_t>(body)];
-    const Vec3 moment = (point - b.c).cross(direction);
-    sum += b.inv_mass + moment.dot(b.inv_J_W * moment);
-  }
-  return sum;
 }
 
 double ContactStep::sound_part(const CollisionState& state) const {

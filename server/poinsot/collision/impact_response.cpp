@@ -13,6 +13,12 @@ namespace {
 constexpr double kRestFlight = 4e-3;
 // Of the touch distance: pairs of a cluster that meet at one instant are that close.
 constexpr double kTogether = 4;
+// Larger clusters without restitution are solved as contacts are: the cost is that of their points,
+// not of their cube.
+constexpr std::size_t kFewPoints = 16;
+// Of the closing speed: what is acceptable if it takes long.
+constexpr double kAcceptable = 1e-9;
+constexpr int kMostIterations = 150;
 
 Vec3 velocity_at(const ContactBody& body, const Vec3& point) {
   return body.v + body.omega.cross(point - body.c);
@@ -141,8 +147,7 @@ void ImpactResponse::resolve(CollisionState& state, Island& island, std::span<co
     for (std::size_t k = range.first; k < range.end; ++k)
       points_[k].restitution = restitution(state, state.pairs[range.record], points_[k]);
   before_ = bodies_;
-  const ImpactOutcome outcome = solver_.resolve(bodies_, points_);
-  island.result.impact_loss += outcome.energy_lost;
+  island.result.impact_loss += solve();
 
   World& world = state.simulation.world();
   for (const ImpactPoint& p : points_) {
@@ -168,6 +173,45 @@ void ImpactResponse::resolve(CollisionState& state, Island& island, std::span<co
   if (!world.systems.empty()) add_systems(world);
   for (const Eigen::Index i : changed_) state.change_course(i);
   tell(state, island, t);
+}
+
+// Impulses of the points, velocities of the bodies; the kinetic energy lost [J].
+double ImpactResponse::solve() {
+  const bool bounces = std::any_of(points_.begin(), points_.end(),
+                                   [](const ImpactPoint& p) { return p.restitution > 0; });
+  if (bounces || points_.size() <= kFewPoints) return solver_.resolve(bodies_, points_).energy_lost;
+  return solve_plastic();
+}
+
+double ImpactResponse::solve_plastic() {
+  contacts_.resize(points_.size());
+  targets_.assign(points_.size(), 0);
+  double closing = 0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const ImpactPoint& p = points_[k];
+    Contact& contact = contacts_[k];
+    contact.a = p.a;
+    contact.b = p.b;
+    contact.point = p.point;
+    contact.normal = p.normal;
+    contact.friction = p.friction;
+    contact.normal_impulse = 0;
+    contact.friction_impulse.setZero();
+    contact.carried.setZero();
+    closing = std::max(closing, closing_speed(p, bodies_));
+  }
+  plastic_solver_.max_iterations = kMostIterations;
+  plastic_solver_.acceptable = kAcceptable * closing;
+  plastic_solver_.solve(bodies_, contacts_, targets_);
+  double lost = 0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    ImpactPoint& p = points_[k];
+    p.impulse = contacts_[k].normal_impulse * p.normal + contacts_[k].friction_impulse;
+    for (const std::vector<ContactBody>* bodies : {&before_, &bodies_})
+      lost -= 0.5 * p.impulse.dot(velocity_at((*bodies)[static_cast<std::size_t>(p.a)], p.point) -
+                                  velocity_at((*bodies)[static_cast<std::size_t>(p.b)], p.point));
+  }
+  return lost;
 }
 
 // What springs join to a body that was struck moves differently as well.

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "poinsot/collision/island.h"
+#include "poinsot/contact/convex_newton.h"
 #include "poinsot/contact/impact.h"
 
 namespace poinsot {
@@ -32,6 +33,8 @@ class ImpactResponse {
   int local(CollisionState& state, Eigen::Index column, double t, SimulationWorker& worker);
   double restitution(CollisionState& state, const PairRecord& record,
                      const ImpactPoint& point) const;
+  double solve();
+  double solve_plastic();
   void add_systems(const World& world);
   void tell(CollisionState& state, Island& island, double t);
 
@@ -41,6 +44,9 @@ class ImpactResponse {
   };
 
   ImpactSolver solver_;
+  ConvexNewton plastic_solver_;  // of large clusters without restitution
+  std::vector<Contact> contacts_;
+  std::vector<double> targets_;
   std::vector<Eigen::Index> columns_;  // per local body
   std::vector<MovingPose> poses_;
   std::vector<ContactBody> bodies_, before_;

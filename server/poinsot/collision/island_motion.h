@@ -50,7 +50,7 @@ class IslandMotion {
     std::span<const int> island_of;
     int id;
     double budget;   // impacts left to locate while contacts last …
-    double stops;    // to make for sliding pairs that come to rest
+    double stops;    // to make for the sake of accuracy
     double flights;  // … and while none does: then only the bodies that meet have to stop
     bool crowded;
   };

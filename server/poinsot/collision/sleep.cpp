@@ -11,6 +11,8 @@ namespace {
 constexpr double kSlow = 1e-4;       // [m/s]
 constexpr double kSlower = 0.99;     // of the speed when it was last looked at
 constexpr std::uint64_t kEvery = 8;  // frames; islands take turns
+// A proof that failed is tried again after twice as many frames as the one before, at most so many.
+constexpr std::uint32_t kLongestWait = 16;  // times kEvery
 
 bool same(const HeldWrench& a, const HeldWrench& b) {
   return a.in_W.force == b.in_W.force && a.in_W.torque == b.in_W.torque &&
@@ -19,7 +21,12 @@ bool same(const HeldWrench& a, const HeldWrench& b) {
 
 }  // namespace
 
-Sleep::Sleep(std::size_t bodies) : speed_(bodies, -1), group_of_(bodies, -1), next_(bodies, -1) {}
+Sleep::Sleep(std::size_t bodies)
+    : speed_(bodies, -1),
+      wait_(bodies, 0),
+      ask_again_(bodies, 0),
+      group_of_(bodies, -1),
+      next_(bodies, -1) {}
 
 bool Sleep::may_sleep(const CollisionState& state, const Island& island) {
   const World& world = state.world();
@@ -41,7 +48,12 @@ bool Sleep::may_sleep(const CollisionState& state, const Island& island) {
   }
   const double before = std::exchange(speed_[first], speed);
   const double still = state.def.sleep_acceleration * state.def.contact_step;
-  return speed <= still || (speed <= kSlow && before >= 0 && speed <= kSlower * before);
+  const bool tired = speed <= still || (speed <= kSlow && before >= 0 && speed <= kSlower * before);
+  if (speed > kSlow) wait_[first] = 0;
+  if (!tired || (wait_[first] > 0 && frame_ < ask_again_[first])) return false;
+  wait_[first] = std::min(kLongestWait, std::max(1u, 2 * wait_[first]));
+  ask_again_[first] = frame_ + kEvery * wait_[first];
+  return true;
 }
 
 void Sleep::lay_down(CollisionState& state, const Island& island) {
@@ -67,6 +79,7 @@ void Sleep::lay_down(CollisionState& state, Eigen::Index i, int group) {
                                    std::numeric_limits<double>::infinity());
   state.course_stamp[k] = state.stamp[k];
   group_of_[k] = group;
+  wait_[k] = 0;
   next_[k] = -1;
   before_[k] = {world.y.col(i), world.held[k]};
   ++asleep_;
@@ -80,6 +93,7 @@ void Sleep::wake(CollisionState& state, Eigen::Index i) {
     state.change_course(k);
     group_of_[body] = -1;
     speed_[body] = -1;
+    wait_[body] = 0;
     --asleep_;
     k = next_[body];
   }
@@ -103,6 +117,7 @@ void Sleep::hash_into(Hash64& hash) const {
     if (group_of_[k] >= 0)
       hash.add(static_cast<std::uint64_t>(k) << 32 | static_cast<std::uint32_t>(group_of_[k]));
     if (speed_[k] >= 0) hash.add(speed_[k]);
+    if (wait_[k] > 0) hash.add(ask_again_[k] << 8 | wait_[k]);
   }
 }
 

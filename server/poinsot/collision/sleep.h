@@ -41,8 +41,10 @@ class Sleep {
   std::uint64_t frame_ = 0;
   std::vector<double>
       speed_;  // [m/s] per body: of its island, when it was last looked at; < 0: never
-  std::vector<int> group_of_;  // of a sleeping body: its first; −1 awake
-  std::vector<int> next_;      // in its group; −1: the last
+  std::vector<std::uint32_t> wait_;  // per body: of its island, after the last proof tried; 0: none
+  std::vector<std::uint64_t> ask_again_;  // in that frame
+  std::vector<int> group_of_;             // of a sleeping body: its first; −1 awake
+  std::vector<int> next_;                 // in its group; −1: the last
   std::vector<Before> before_;
   std::uint32_t asleep_ = 0;
 };
