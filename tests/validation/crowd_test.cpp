@@ -173,12 +173,17 @@ TEST(Crowd, DoesNotTakeHeavyBodiesOnLightOnes) {
         test::body("box" + std::to_string(z), Box{{1, 1, 1}}, {0, 0, 0.5 + z}, std::pow(10.0, z)));
   const Scene scene = stepped_by(ContactSolverKind::automatic, test::scene(std::move(bodies)));
   CollisionLayer layer(scene);
-  test::run_until(layer, 5,
-                  [&](const CollisionLayer& now) { EXPECT_EQ(now.report().soft_bodies, 0u); });
-  for (Eigen::Index i = 1; i < layer.world().size(); ++i)
-    EXPECT_LT(
-        (position(layer.world().y, i) - scene.bodies[static_cast<std::size_t>(i)].pose.c).norm(),
-        scene.collision.contact_tolerance);
+  // Bodies leave the crowd a frame late: each box sinks no farther meanwhile than it would fall.
+  constexpr double kFall = 0.5 * 9.81 / (test::kFrameRate * test::kFrameRate);  // [m]
+  test::run_until(layer, 5, [&](const CollisionLayer& now) {
+    if (now.time() > 1.5 / test::kFrameRate) {
+      EXPECT_EQ(now.report().soft_bodies, 0u) << now.time();
+    }
+  });
+  for (Eigen::Index i = 1; i < layer.world().size(); ++i) {
+    const Vec3 start = scene.bodies[static_cast<std::size_t>(i)].pose.c;
+    EXPECT_LT((position(layer.world().y, i) - start).norm(), static_cast<double>(i) * kFall);
+  }
 }
 
 }  // namespace

@@ -18,9 +18,8 @@ constexpr double kFramesAhead = 4;
 constexpr std::size_t kMostMoving = 64, kMostResting = 400;
 // A body on its own is solved directly even if that accuracy is not asked for.
 constexpr std::size_t kFewDirect = 1;
-// Easy islands: of bodies less than kMostRatio
-// times as heavy as one another (steps of it add up in a stack), at most kMostLevels on one
-// another.
+// Easy islands: of bodies less than kMostRatio times as heavy as one another (steps of it add up in
+// a stack), at most kMostLevels on one another.
 constexpr double kMostRatio = 10;
 constexpr int kMostLevels = 12;
 // An island that is strained by so many times its tolerance though it hardly moves, by kSlow of its

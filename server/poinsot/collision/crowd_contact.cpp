@@ -9,8 +9,9 @@
 namespace poinsot {
 namespace {
 
-// Points are kept while the pair turned and shifted by less than this of its size.
-constexpr double kSamePose = 3e-3;
+// Points are kept while the pair turned and shifted by less than this of its size. Three times as
+// much and a tower of ten drifts by centimetres in a minute, for it is not seen to lean.
+constexpr double kSamePose = 1e-3;
 // A point continues an old one of another feature when it moved by less than this of the size.
 constexpr double kSamePoint = 0.1;
 // Points are looked for farther than asked for, so that they are not looked for anew so soon.

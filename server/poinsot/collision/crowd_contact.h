@@ -35,7 +35,7 @@ struct CrowdContact {
 
 // Brings a contact to where its shapes are now: points nearer than `margin` [m], and some beyond.
 // Points that continue old ones keep their impulses. A pair of polyhedra that turned and shifted by
-// less than a few thousandths of its size keeps its points; their gaps are then wrong by the square
+// less than a thousandth of its size keeps its points; their gaps are then wrong by the square
 // of that.
 void measure_contact(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                      double size, double margin, CrowdContact& contact);
