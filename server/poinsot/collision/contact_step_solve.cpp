@@ -176,16 +176,17 @@ void ContactStep::push_out(CollisionState& state, Books& books) {
   solver_.acceptable = solver_.tolerance;
   iterations_ += solver_.push_out(bodies_, contacts_, target_).iterations;
   solver_.tolerance = tolerance;
-  for (Contact& contact : contacts_) contact.gap += h_ * relative_speed(contact, bodies_);
+  const double h = std::min(h_, usual_);  // a longer one may yet be cut
+  for (Contact& contact : contacts_) contact.gap += h * relative_speed(contact, bodies_);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];
     if (!world.moves(i) || (bodies_[k].v.isZero(0) && bodies_[k].omega.isZero(0))) continue;
     const double spin_energy = rotational_energy(world, i);
-    position(world.y, i) += h_ * bodies_[k].v;
-    turn(world, i, h_ * bodies_[k].omega);
+    position(world.y, i) += h * bodies_[k].v;
+    turn(world, i, h * bodies_[k].omega);
     const double added =
         rotational_energy(world, i) - spin_energy -
-        world.mass[static_cast<std::size_t>(i)] * h_ * world.gravity.dot(bodies_[k].v);
+        world.mass[static_cast<std::size_t>(i)] * h * world.gravity.dot(bodies_[k].v);
     if (std::isfinite(added)) books.push_out_energy += added;
   }
 }
@@ -367,7 +368,7 @@ double ContactStep::while_turning(const CollisionState& state, double h,
       longest = std::min(longest, h * (rolls ? std::sqrt(part) : power(part, 1.0 / 3)));
     }
   }
-  return std::max(longest, std::min(h, kLeastTurn * usual_));
+  return std::max(longest, std::min(h, kLeastTurn * def_.contact_step));
 }
 
 // When the first sliding pair comes to rest, if that is within h: there its friction stops being
@@ -431,6 +432,7 @@ double ContactStep::sound_part(const CollisionState& state) const {
 }
 
 void ContactStep::remember(CollisionState& state) {
+  for (const int r : records_) state.pairs[r].by_crowd = false;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     PairPoint& p = point(state, i);
     p.normal_impulse = contacts_[i].normal_impulse;

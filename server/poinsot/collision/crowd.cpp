@@ -78,7 +78,22 @@ Crowd::Crowd(const CollisionState& state)
     has_mesh_ = has_mesh_ || mesh;
   }
   usual_ = prefers_crowd(state.def);
-  if (usual_) member_ = may_step_;
+  if (state.def.contact_solver == ContactSolverKind::soft_step) member_ = may_step_;
+}
+
+void Crowd::next_frame() {
+  ++frame_;
+  before_ = member_;
+  for (int& frames : promoted_) frames = std::max(0, frames - 1);
+}
+
+void Crowd::hash_into(Hash64& hash) const {
+  for (std::size_t k = 0; k < member_.size(); ++k) {
+    const std::uint64_t forced = forced_[k] > frame_ ? forced_[k] - frame_ : 0;
+    const std::uint64_t word =
+        std::uint64_t{member_[k]} | forced << 8 | static_cast<std::uint64_t>(promoted_[k]) << 32;
+    if (word != 0) hash.add(static_cast<std::uint64_t>(k) << 48 ^ word);
+  }
 }
 
 void Crowd::set_member(Eigen::Index i, bool member) {
@@ -129,7 +144,7 @@ Aabb Crowd::roomy_box(const CollisionState& state, const Collider& collider, dou
 bool Crowd::is_near(const CollisionState& state, const PairRecord& record) const {
   const auto box = [&](int collider, int body) -> const Aabb& {
     const auto c = static_cast<std::size_t>(collider);
-    return has(body) ? near_[c] : state.bound[c];
+    return has(body) && state.is_awake(body) ? near_[c] : state.bound[c];
   };
   const auto is_plane = [&](int collider) {
     return kind_[static_cast<std::size_t>(collider)] == Kind::plane;
@@ -173,7 +188,6 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
     if (has(i) && slow && step.strain(i) > kStrained * state.def.contact_tolerance)
       promoted_[k] = kPromotedFrames;
     promoted = promoted || promoted_[k] > 0;
-    promoted_[k] = std::max(0, promoted_[k] - 1);
   }
   if (island.bodies.size() > (rests && !usual_ ? kMostResting : kMostMoving)) return true;
   return !promoted && is_easy(state, island);

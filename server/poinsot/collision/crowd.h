@@ -53,10 +53,14 @@ class Crowd {
     constexpr std::uint64_t kFrames = 20;
     forced_[static_cast<std::size_t>(i)] = frame_ + kFrames;
   }
-  void next_frame() { ++frame_; }
+  void next_frame();
+  // Whether it was a member when the frame began.
+  bool had(Eigen::Index i) const { return before_[static_cast<std::size_t>(i)] != 0; }
 
   // Whether soft_step knows all that acts on an island, and the crowd all its shapes.
   bool may_step(const CollisionState& state, const Island& island) const;
+  // Adds what a continuation depends on.
+  void hash_into(Hash64& hash) const;
   // Whether an island is stepped with the crowd in the frame that begins. `step`: the last one.
   bool takes(const CollisionState& state, const Island& island, const CrowdStep& step,
              double duration);
@@ -69,6 +73,7 @@ class Crowd {
 
   bool usual_ = false;                // bodies are in the crowd unless something speaks against it
   std::vector<std::uint8_t> member_;  // per body
+  std::vector<std::uint8_t> before_;  // per body: member_ when the frame began
   std::vector<std::uint8_t> may_step_;  // per body: nothing acts on it that soft_step does not know
   std::vector<std::uint8_t> fits_;      // per body
   enum class Kind : std::uint8_t { solid, plane, mesh };

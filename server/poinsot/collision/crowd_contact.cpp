@@ -82,6 +82,7 @@ void recall(std::span<const CrowdContact::Point> old, double size, CrowdContact&
 
 void CrowdContact::forget() {
   margin = -1;
+  h = 0;
   count = 0;
   friction_in_a.setZero();
   twist_impulse = 0;
@@ -89,11 +90,18 @@ void CrowdContact::forget() {
 
 void CrowdContact::hash_into(Hash64& hash) const {
   hash.add(margin);
+  hash.add(until);
+  hash.add(h);
   for (const double x : measured.c) hash.add(x);
   for (const double x : measured.q.coeffs()) hash.add(x);
+  for (const double x : normal_in_a) hash.add(x);
   for (int k = 0; k < count; ++k) {
-    hash.add(points[static_cast<std::size_t>(k)].normal_impulse);
-    hash.add(points[static_cast<std::size_t>(k)].usual_impulse);
+    const Point& p = points[static_cast<std::size_t>(k)];
+    for (const Vec3* v : {&p.on_a, &p.on_b})
+      for (const double x : *v) hash.add(x);
+    hash.add(static_cast<std::uint64_t>(p.feature));
+    hash.add(p.normal_impulse);
+    hash.add(p.usual_impulse);
   }
   for (const double x : friction_in_a) hash.add(x);
   hash.add(twist_impulse);
@@ -108,7 +116,8 @@ void measure_contact(const Collider& a, const Pose& pose_a, const Collider& b, c
                                std::min(b.bounding_radius, a.bounding_radius + relative.c.norm()));
     if (contact.count == 0) {
       if (margin + moved <= contact.margin) return;  // still too far apart
-    } else if (moved <= kSamePose * size && has_corners(a) && has_corners(b)) {
+    } else if (moved <= kSamePose * size && margin + moved <= contact.margin && has_corners(a) &&
+               has_corners(b)) {
       return;
     }
   }

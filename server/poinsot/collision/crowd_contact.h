@@ -23,6 +23,7 @@ struct CrowdContact {
   Pose measured;       // of B's shape in A's frame when the points were last found …
   double margin = -1;  // [m] … and how far apart they were looked for; < 0: never
   double until = -1;   // [s] the end of the step it was last used in
+  double h = 0;        // [s] sub-step of the impulses; 0: there are none
   int count = 0;
   Vec3 normal_in_a = Vec3::UnitZ();   // unit, from b to a
   Vec3 friction_in_a = Vec3::Zero();  // [N·s] on a, in the frame S of A

@@ -56,6 +56,7 @@ void take_over(const PairContact& solved, const Pose& pose_a, const Pose& pose_b
     friction += scale * p.friction_impulse;
   }
   contact.friction_in_a = pose_a.q.conjugate() * friction;
+  contact.h = h;
 }
 
 }  // namespace
@@ -88,7 +89,7 @@ int CrowdStep::parts(const CollisionState& state, double duration) {
 void CrowdStep::place_immovable(const CollisionState& state, int i, double h) {
   const World& world = state.world();
   const auto k = static_cast<std::size_t>(i);
-  if (world.moves(i) || placed_[k] == step_) return;
+  if (state.is_awake(i) || placed_[k] == step_) return;
   placed_[k] = step_;
   const bool carried = world.is_kinematic(i);
   const Pose pose = carried && now_ > world.time
@@ -126,6 +127,8 @@ int CrowdStep::local(const CollisionState& state, int column) {
 void CrowdStep::gather_bodies(const CollisionState& state, std::span<Island* const> islands,
                               Team& team) {
   for (const Eigen::Index i : columns_) local_[static_cast<std::size_t>(i)] = -1;
+  for (const int column : immovable_) local_[static_cast<std::size_t>(column)] = -1;
+  immovable_.clear();
   columns_.clear();
   records_.clear();
   for (const Island* island : islands) {
@@ -201,7 +204,7 @@ void CrowdStep::measure(CollisionState& state, const PairRecord& record) {
                   contact);
   if (goes_on || contact.count == 0) return;
   if (const PairContact* solved = state.pairs.find_contact(record); solved != nullptr)
-    take_over(*solved, pose_[a], pose_[b], record.size, last_h_, contact);
+    take_over(*solved, pose_[a], pose_[b], record.size, sub_step_, contact);
 }
 
 // The manifolds of all records that have points, as the solver sees them.
@@ -228,6 +231,7 @@ void CrowdStep::fill(const CollisionState& state, const PairRecord& record, Soft
              b = static_cast<std::size_t>(record.pair.b);
   const Pose &pose_a = pose_[a], &pose_b = pose_[b];
   const Mat3 R_a = pose_a.q.toRotationMatrix(), R_b = pose_b.q.toRotationMatrix();
+  const double scale = contact.h > 0 ? sub_step_ / contact.h : 0;
   m.a = local_[static_cast<std::size_t>(record.a)];
   m.b = local_[static_cast<std::size_t>(record.b)];
   m.count = contact.count;
@@ -247,11 +251,11 @@ void CrowdStep::fill(const CollisionState& state, const PairRecord& record, Soft
     point.arm_a = from_a + on_a;
     point.arm_b = from_b + on_b;
     point.gap = m.normal.dot(apart + on_a - on_b);
-    point.normal_impulse = impulse_scale_ * p.normal_impulse;
-    point.usual_impulse = impulse_scale_ * p.usual_impulse;
+    point.normal_impulse = scale * p.normal_impulse;
+    point.usual_impulse = scale * p.usual_impulse;
   }
-  m.friction_impulse = impulse_scale_ * (R_a * contact.friction_in_a);
-  m.twist_impulse = impulse_scale_ * contact.twist_impulse;
+  m.friction_impulse = scale * (R_a * contact.friction_in_a);
+  m.twist_impulse = scale * contact.twist_impulse;
 }
 
 void CrowdStep::find_strain() {
@@ -270,7 +274,16 @@ void CrowdStep::find_strain() {
 
 // Contacts remember their impulses.
 void CrowdStep::recall(CollisionState& state, Team& team) {
-  for (const int r : records_) state.pairs[r].standing = false;
+  for (const int r : records_) {
+    PairRecord& record = state.pairs[r];
+    record.standing = false;
+    record.by_crowd = true;
+    if (record.contact < 0) continue;
+    PairContact& solved = state.pairs.contact(record);  // what it knows is old from now on
+    solved.last_h = 0;
+    solved.digest = 0;
+    for (PairPoint& p : solved.points) p.approach = 0;
+  }
   run_chunks(team, active_.size(), [&](std::size_t k) {
     PairRecord& record = state.pairs[active_[k]];
     CrowdContact& contact = state.pairs.crowd_contact(record);
@@ -285,6 +298,7 @@ void CrowdStep::recall(CollisionState& state, Team& team) {
     contact.friction_in_a =
         pose_[static_cast<std::size_t>(record.pair.a)].q.conjugate() * m.friction_impulse;
     contact.twist_impulse = m.twist_impulse;
+    contact.h = sub_step_;
     record.standing = sum > 0;
   });
 }
@@ -294,6 +308,7 @@ void CrowdStep::scatter(CollisionState& state, Result& result, Team& team) {
   Vec3 moved = Vec3::Zero();  // [kg·m]
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];
+    if (!bodies_[k].c.allFinite()) continue;  // it will be frozen where it was
     moved += world.mass[static_cast<std::size_t>(i)] * (bodies_[k].c - Vec3(position(world.y, i)));
   }
   result.tally.work -= world.gravity.dot(moved);
@@ -311,8 +326,9 @@ void CrowdStep::scatter(CollisionState& state, Result& result, Team& team) {
 
 void CrowdStep::add_forces(const CollisionState& state, const PairRecord& record,
                            std::vector<ContactForce>& forces) const {
-  if (record.crowd_contact < 0 || !(last_h_ > 0)) return;
+  if (record.crowd_contact < 0) return;
   const CrowdContact& contact = state.pairs.crowd_contact(record);
+  if (!(contact.h > 0)) return;
   const World& world = state.world();
   const auto pose = [&](int collider, int body) {
     return collider_pose(state.colliders[static_cast<std::size_t>(collider)],
@@ -320,12 +336,12 @@ void CrowdStep::add_forces(const CollisionState& state, const PairRecord& record
   };
   const Pose pose_a = pose(record.pair.a, record.a), pose_b = pose(record.pair.b, record.b);
   const Vec3 normal = pose_a.q * contact.normal_in_a;
-  Vec3 friction = pose_a.q * contact.friction_in_a / last_h_;
+  Vec3 friction = pose_a.q * contact.friction_in_a / contact.h;
   for (int k = 0; k < contact.count; ++k) {
     const CrowdContact::Point& p = contact.points[static_cast<std::size_t>(k)];
     if (!(p.normal_impulse > 0)) continue;
     forces.push_back({record.a, record.b, 0.5 * (pose_a * p.on_a + pose_b * p.on_b), normal,
-                      p.normal_impulse / last_h_ * normal + friction});
+                      p.normal_impulse / contact.h * normal + friction});
     friction.setZero();
   }
 }
@@ -334,6 +350,7 @@ CrowdStep::Result CrowdStep::advance(CollisionState& state, std::span<Island* co
                                      double t_end, Team& team) {
   Result result;
   const double duration = t_end - state.world().time;
+  if (!(duration > 0)) return result;
   gather_bodies(state, islands, team);
   const int parts = this->parts(state, duration);
   const double h = duration / parts;
@@ -342,13 +359,10 @@ CrowdStep::Result CrowdStep::advance(CollisionState& state, std::span<Island* co
   settings.push_out_speed = state.def.push_out_speed;
   settings.rest_speed = 2 * state.world().gravity.norm() * h / settings.steps;
   now_ = state.world().time;
-  const double sub_step = h / settings.steps;
-  impulse_scale_ = last_h_ > 0 ? sub_step / last_h_ : 1;
-  last_h_ = sub_step;
+  sub_step_ = h / settings.steps;
   for (int part = 0; part < parts; ++part) {
     if (part > 0) {
       now_ = end_;
-      impulse_scale_ = 1;
       gather_bodies(state, islands, team);
     }
     end_ = part + 1 < parts ? state.world().time + (part + 1) * h : t_end;
@@ -356,9 +370,11 @@ CrowdStep::Result CrowdStep::advance(CollisionState& state, std::span<Island* co
     fill(state, team);
     if (state.def.contact_solver == ContactSolverKind::automatic) find_strain();
     const SoftOutcome outcome = solver_.advance(bodies_, manifolds_, {}, h, settings, team);
-    result.tally.work += outcome.force_work;
-    result.outcome.loss += outcome.loss;
-    result.outcome.push_out_energy += outcome.push_out_energy;
+    if (std::isfinite(outcome.force_work) && std::isfinite(outcome.loss)) {
+      result.tally.work += outcome.force_work;
+      result.outcome.loss += outcome.loss;
+      result.outcome.push_out_energy += outcome.push_out_energy;
+    }
     result.outcome.max_penetration = outcome.max_penetration;
     result.outcome.pushing = outcome.pushing;
     result.outcome.residual = std::max(result.outcome.residual, outcome.residual);

@@ -59,8 +59,7 @@ class CrowdStep {
   std::uint64_t step_ = 0;
 
   SoftStep solver_;
-  double last_h_ = 0;                  // [s] of a sub-step
-  double impulse_scale_ = 1;           // from those of the sub-step before to this one's
+  double sub_step_ = 0;                // [s]
   double now_ = 0, end_ = 0;           // [s] where the step begins and ends
   std::vector<Eigen::Index> columns_;  // bodies that move, in the order of the islands
   std::vector<int> local_;             // per column; −1: none

@@ -22,6 +22,8 @@ constexpr double kThrown = 2;
 // Restarts widen the boxes of strays; from this one on they hold everything.
 constexpr int kLastNarrow = 6;
 constexpr double kEverywhere = 1e9;  // [m]
+// A proof of rest is a direct solve: larger islands of the crowd stay awake.
+constexpr std::size_t kMostProven = 400;
 // An island that strays more often than this joins the crowd, if it can be stepped so.
 constexpr int kMostAlone = 3;
 // No motion that is any needs more; what is left of a frame then ends all the same.
@@ -237,7 +239,7 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
                   crowd_.has(record.b) == state_.is_awake(record.b);
       for (const int body : {record.a, record.b}) {
         const auto k = static_cast<std::size_t>(body);
-        if (state_.asleep[k] != 0 && searches) {
+        if (state_.asleep[k] != 0 && (searches || crowd)) {
           sleep_.wake(state_, body);
           again = true;
         }
@@ -264,8 +266,8 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
   for (std::size_t k = 0; k < excited_.size(); ++k)
     if (excited_[k] != 0 && !crowd_.has(static_cast<Eigen::Index>(k))) {
       excite(static_cast<Eigen::Index>(k), t_end, kThrown * thrown_[k]);
-      thrown_[k] = 0;
     }
+  std::fill(thrown_.begin(), thrown_.end(), 0);
   update_pairs();
 }
 
@@ -301,6 +303,8 @@ void FrameMotion::run_islands(double t_end, CollisionReport& report, CollisionTi
     } else {  // they may look at one another: one after the other, whatever the team
       for (std::size_t k = 0; k < islands.size(); ++k) advance(k, 0);
     }
+    if (attempt > kMostRestarts)
+      for (Island& island : islands) island.done = true;
     if (std::all_of(islands.begin(), islands.end(),
                     [](const Island& i) { return i.done || i.crowd; }))
       break;
@@ -374,6 +378,7 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
     }
   }
   update_pairs();
+  crowd_.find_idle(state_, team_);
   islands_.partition(state_, excited_, false);
   choose_crowd(t_end);
 }
@@ -391,7 +396,7 @@ void FrameMotion::choose_crowd(double t_end) {
     // Who was looked at as one of the crowd has no boxes for anything else: he leaves it a frame
     // later.
     const bool leaves = std::any_of(island.bodies.begin(), island.bodies.end(),
-                                    [&](Eigen::Index i) { return crowd_.has(i); });
+                                    [&](Eigen::Index i) { return crowd_.had(i); });
     island.crowd = crowd || (leaves && crowd_.may_step(state_, island));
     for (const Eigen::Index i : island.bodies) crowd_.set_member(i, crowd);
     if (island.crowd) {
@@ -435,7 +440,8 @@ void FrameMotion::put_to_sleep() {
   const std::span<Island> islands = islands_.all();
   tired_.assign(islands.size(), 0);
   for (std::size_t k = 0; k < islands.size(); ++k) {
-    tired_[k] = sleep_.may_sleep(state_, islands[k]) ? 1 : 0;
+    const bool provable = !islands[k].crowd || islands[k].bodies.size() <= kMostProven;
+    tired_[k] = provable && sleep_.may_sleep(state_, islands[k]) ? 1 : 0;
     if (tired_[k] != 0 && islands[k].crowd)
       for (const int r : islands[k].records) state_.pairs.make_contact(state_.pairs[r]);
   }
@@ -462,11 +468,18 @@ bool FrameMotion::touches_now(const PairRecord& record) const {
   return find_gap(a, pose_a, b, pose_b).value <= touch;
 }
 
+void FrameMotion::hash_into(Hash64& hash) const {
+  state_.pairs.hash_into(hash);
+  sleep_.hash_into(hash);
+  crowd_.hash_into(hash);
+  state_.simulation.hash_into(hash);
+}
+
 void FrameMotion::contact_forces(std::vector<ContactForce>& forces) const {
   forces.clear();
   for (const PairRecord& record : state_.pairs.records()) {
     if (!record.standing) continue;
-    if (crowd_.has(record.a) || crowd_.has(record.b)) {
+    if (record.by_crowd) {
       crowd_step_.add_forces(state_, record, forces);
       continue;
     }

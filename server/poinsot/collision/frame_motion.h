@@ -20,11 +20,11 @@ class FrameMotion {
                   CollisionTimes& times);
 
   void contact_forces(std::vector<ContactForce>& forces) const;
+  void hash_into(Hash64& hash) const;
 
   void touch() { touched_ = true; }
   CollisionState& state() { return state_; }
   const CollisionState& state() const { return state_; }
-  const Sleep& sleep() const { return sleep_; }
 
  private:
   void settle_courses();

@@ -219,6 +219,7 @@ void IslandMotion::watch(Frame& frame, Eigen::Index i, double t) {
   CollisionState& state = frame.state;
   for (const int r : state.pairs.of(i)) {
     const PairRecord& record = state.pairs[r];
+    if (record.idle) continue;  // out of its reach while it keeps to its boxes
     const int other = record.a == i ? record.b : record.a;
     if (state.is_awake(other) && frame.island_of[static_cast<std::size_t>(other)] != frame.id)
       frame.island.strays.push_back(other);
