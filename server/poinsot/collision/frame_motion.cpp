@@ -327,7 +327,7 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
     if (island.done || island.crowd) continue;
     for (const Eigen::Index i : island.bodies) excited_[static_cast<std::size_t>(i)] = 1;
     // An island that goes wherever it may is no island: the crowd takes it.
-    if (crowd_.is_usual() || attempt >= kMostAlone)
+    if (attempt >= (crowd_.is_usual() ? 1 : kMostAlone))
       for (const Eigen::Index i : island.bodies) crowd_.force(i);
     const int own = islands_.island_of[static_cast<std::size_t>(island.bodies.front())];
     for (const Eigen::Index i : island.strays)
