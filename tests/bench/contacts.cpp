@@ -1,7 +1,7 @@
 // bench_contacts: the contact scenes in the collision layer, without sleeping.
 //
 // Options beside those of contact_measure.h, all of the scene: --profile NAME, --solver NAME,
-// --step S [s] of contact, --iterations N, --threads N, --sleeping. What is not given is the
+// --step S [s] of contact, --threads N, --sleeping. What is not given is the
 // scene's default; with none of them the defaults come first, then every solver at several steps.
 
 #include <cmath>
@@ -23,7 +23,6 @@ namespace {
 struct Choice {
   std::string profile, solver, name;
   std::optional<double> step;  // [s]
-  std::optional<int> iterations;
   int threads = 1;
   bool sleeping = false;
 };
@@ -41,7 +40,6 @@ Scene base_scene(const Choice& choice) {
     scene = read_scene_text("profile: " + choice.profile + "\nbodies: []\n", "contacts");
   if (!choice.solver.empty()) scene.collision.contact_solver = solver_of(choice.solver);
   if (choice.step) scene.collision.contact_step = *choice.step;
-  if (choice.iterations) scene.collision.iterations = *choice.iterations;
   scene.collision.threads = choice.threads;
   scene.collision.sleeping = choice.sleeping;
   scene.simulation.gravity = {0, 0, -kGravity};
@@ -108,8 +106,6 @@ std::optional<Choice> take_choice(int& argc, char** argv) {
       choice.solver = argv[++i];
     } else if (i + 1 < argc && name == "--step") {
       choice.step = std::atof(argv[++i]);
-    } else if (i + 1 < argc && name == "--iterations") {
-      choice.iterations = std::atoi(argv[++i]);
     } else if (i + 1 < argc && name == "--threads") {
       choice.threads = std::atoi(argv[++i]);
     } else {

@@ -84,8 +84,8 @@ def tables(rows):
 
     return (f"As the engines come, 60 outputs per second (fixed steps: 1/60 s):\n\n"
             f"{table(rows, default)}\n\n"
-            f"The cheapest setting of each within 1.5 times its smallest error (steps down to 1/10 020 s, of the crowd to
-1/1020 s; accuracies to 1e-12; settings that take more than 15 s are left out):\n\n"
+            f"The cheapest setting of each within 1.5 times its smallest error (steps down to 1/10 020 s, of the crowd to "
+            f"1/1020 s; accuracies to 1e-12; settings that take more than 15 s are left out):\n\n"
             f"{table(rows, best)}\n")
 
 

@@ -1,4 +1,4 @@
-// The profiles that hard cases are run in.
+// The two profiles that hard cases are run in.
 
 #pragma once
 
@@ -10,6 +10,8 @@
 #include "poinsot/scene/scene.h"
 
 namespace poinsot::test {
+
+inline constexpr Profile kProfiles[] = {Profile::accurate, Profile::fast};
 
 inline Scene with_profile(Scene scene, Profile profile) {
   scene.collision = collision_defaults(profile);

@@ -79,6 +79,11 @@ inline void expect_same(const RunReport& a, const RunReport& b) {
   EXPECT_EQ(a.frame.impacts, b.frame.impacts);
   EXPECT_EQ(a.frame.impacts_so_far, b.frame.impacts_so_far);
   EXPECT_EQ(a.frame.asleep, b.frame.asleep);
+  EXPECT_EQ(a.frame.soft_bodies, b.frame.soft_bodies);
+  EXPECT_EQ(a.frame.direct_bodies, b.frame.direct_bodies);
+  EXPECT_EQ(a.frame.solver_iterations, b.frame.solver_iterations);
+  EXPECT_EQ(a.frame.unconverged, b.frame.unconverged);
+  EXPECT_EQ(a.frame.contact_residual, b.frame.contact_residual);
   EXPECT_EQ(a.frame.energy, b.frame.energy);
   EXPECT_EQ(a.frame.energy_error, b.frame.energy_error);
   EXPECT_EQ(a.frame.push_out_energy, b.frame.push_out_energy);

@@ -20,10 +20,14 @@ constexpr std::chrono::seconds kLeave{2};
 void expect_summary(const Json& summary) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : summary.items()) keys.push_back(key);
-  EXPECT_EQ(keys,
-            (Words{"frames", "sim_time", "wall_s", "cpu_s", "bodies", "energy_error",
-                   "momentum_error", "position_error", "orientation_error", "impacts", "islands",
-                   "restarts", "impact_searches", "asleep", "crowded", "methods", "state_hash"}));
+  EXPECT_EQ(keys, (Words{"frames",          "sim_time",         "wall_s",
+                         "cpu_s",           "bodies",           "energy_error",
+                         "momentum_error",  "position_error",   "orientation_error",
+                         "impacts",         "islands",          "restarts",
+                         "impact_searches", "asleep",           "crowded",
+                         "soft_bodies",     "direct_bodies",    "solver_iterations",
+                         "unconverged",     "contact_residual", "max_penetration",
+                         "methods",         "state_hash"}));
   std::vector<std::string> layers;
   for (const auto& [layer, seconds] : summary["cpu_s"].items()) {
     layers.push_back(layer);

@@ -142,8 +142,8 @@ TEST(SceneFaults, OfAFileComeAllInOneGo) {
 }
 
 TEST(SceneFaults, AreNoneInTheShippedScenes) {
-  for (const char* scene :
-       {"bouncing_balls", "incline", "pile", "projectile", "push_me", "tennis_racket", "tower"}) {
+  for (const char* scene : {"bouncing_balls", "crowd", "incline", "pile", "projectile", "push_me",
+                            "tennis_racket", "tower"}) {
     for (const std::string& name :
          {std::string(scene), std::string(POINSOT_SCENES) + "/" + scene + ".yaml"}) {
       const Ended ended = run_daemon({"check", name});

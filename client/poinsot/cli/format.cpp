@@ -129,6 +129,10 @@ std::string status_text(const std::string& world, const RunReport& r) {
   text += fmt::format("contacts     {}, deepest {:.3g} m\n", f.contacts, f.max_penetration);
   text += fmt::format("islands      {}, {} restarts, {} impact searches\n", f.islands, f.restarts,
                       f.impact_searches);
+  text += fmt::format(
+      "solvers      {} bodies soft_step, {} convex_newton in {} iterations, {} unconverged, "
+      "residual {:.3g} m/s\n",
+      f.soft_bodies, f.direct_bodies, f.solver_iterations, f.unconverged, f.contact_residual);
   text += fmt::format("impacts      {}, {} in all\n", f.impacts, f.impacts_so_far);
   text += fmt::format("energy       {:.6g} J, error {:.3g}, push-out {:.3g} J\n", f.energy,
                       f.energy_error, f.push_out_energy);

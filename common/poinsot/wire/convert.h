@@ -26,7 +26,7 @@ namespace poinsot {
 
 std::string to_message(const PoseSnapshot& in, msg::v1::PoseFrame& out);
 std::string to_message(const BodyInfo& in, msg::v2::BodyDescription& out);
-std::string to_message(const RunReport& in, msg::v3::RunStatus& out);
+std::string to_message(const RunReport& in, msg::v4::RunStatus& out);
 std::string to_message(const WrenchCommand& in, msg::v1::BodyWrench& out);
 std::string to_message(const RunControl& in, msg::v1::RunRequest& out);
 std::string to_message(const Reply& in, msg::v1::CommandReply& out);
@@ -34,7 +34,7 @@ std::string to_message(const ImpactNotice& in, msg::v1::ImpactEvent& out);
 
 std::string from_message(const msg::v1::PoseFrame& in, PoseSnapshot& out);
 std::string from_message(const msg::v2::BodyDescription& in, BodyInfo& out);
-std::string from_message(const msg::v3::RunStatus& in, RunReport& out);
+std::string from_message(const msg::v4::RunStatus& in, RunReport& out);
 std::string from_message(const msg::v1::BodyWrench& in, WrenchCommand& out);
 std::string from_message(const msg::v1::RunRequest& in, RunControl& out);
 std::string from_message(const msg::v1::CommandReply& in, Reply& out);

@@ -14,12 +14,12 @@ constexpr FrameFlag kAllFlags = FrameFlag::body_quarantined | FrameFlag::inbox_f
 
 constexpr auto kLastMethod = static_cast<std::uint8_t>(kMethodNames.back().value);
 
-void assign(msg::v3::LayerTime& out, const Elapsed& in) {
+void assign(msg::v4::LayerTime& out, const Elapsed& in) {
   out.wall_s(in.wall_s);
   out.cpu_s(in.cpu_s);
 }
 
-Elapsed time(Checks& checks, const msg::v3::LayerTime& in, std::string_view name) {
+Elapsed time(Checks& checks, const msg::v4::LayerTime& in, std::string_view name) {
   checks.number(in.wall_s(), name);
   checks.number(in.cpu_s(), name);
   return {in.wall_s(), in.cpu_s()};
@@ -45,12 +45,12 @@ void read_methods(Checks& checks, const std::vector<std::uint8_t>& in, std::vect
 
 }  // namespace
 
-std::string to_message(const RunReport& in, msg::v3::RunStatus& out) {
+std::string to_message(const RunReport& in, msg::v4::RunStatus& out) {
   if (in.body_methods.size() > kMaxBodies)
     return "body_methods: more than " + std::to_string(kMaxBodies) + " in one report";
   out.session(in.session);
   out.epoch(in.epoch);
-  out.state(static_cast<msg::v3::RunStateKind>(in.state));
+  out.state(static_cast<msg::v4::RunStateKind>(in.state));
   out.frame_index(in.frame.frame);
   out.sim_time(in.frame.sim_time);
   out.bodies(in.frame.bodies);
@@ -62,6 +62,11 @@ std::string to_message(const RunReport& in, msg::v3::RunStatus& out) {
   out.impacts(in.frame.impacts);
   out.impacts_so_far(in.frame.impacts_so_far);
   out.asleep(in.frame.asleep);
+  out.soft_bodies(in.frame.soft_bodies);
+  out.direct_bodies(in.frame.direct_bodies);
+  out.solver_iterations(in.frame.solver_iterations);
+  out.unconverged(in.frame.unconverged);
+  out.contact_residual(in.frame.contact_residual);
   out.energy(in.frame.energy);
   out.energy_error(in.frame.energy_error);
   out.push_out_energy(in.frame.push_out_energy);
@@ -90,7 +95,7 @@ std::string to_message(const RunReport& in, msg::v3::RunStatus& out) {
   return {};
 }
 
-std::string from_message(const msg::v3::RunStatus& in, RunReport& out) {
+std::string from_message(const msg::v4::RunStatus& in, RunReport& out) {
   Checks checks;
   out.session = in.session();
   out.epoch = in.epoch();
@@ -106,6 +111,11 @@ std::string from_message(const msg::v3::RunStatus& in, RunReport& out) {
   out.frame.impacts = in.impacts();
   out.frame.impacts_so_far = in.impacts_so_far();
   out.frame.asleep = in.asleep();
+  out.frame.soft_bodies = in.soft_bodies();
+  out.frame.direct_bodies = in.direct_bodies();
+  out.frame.solver_iterations = in.solver_iterations();
+  out.frame.unconverged = in.unconverged();
+  out.frame.contact_residual = finite(checks, in.contact_residual(), "contact_residual");
   out.frame.energy = finite(checks, in.energy(), "energy");
   out.frame.energy_error = finite(checks, in.energy_error(), "energy_error");
   out.frame.push_out_energy = finite(checks, in.push_out_energy(), "push_out_energy");

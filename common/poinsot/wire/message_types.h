@@ -41,7 +41,7 @@ struct MessageType<BodyInfo> {
 };
 template <>
 struct MessageType<RunReport> {
-  using Support = SafeSupport<msg::v3::RunStatusPubSubType>;
+  using Support = SafeSupport<msg::v4::RunStatusPubSubType>;
 };
 template <>
 struct MessageType<WrenchCommand> {

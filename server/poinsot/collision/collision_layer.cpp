@@ -115,10 +115,7 @@ EnergyBalance CollisionLayer::energy_balance() {
 }
 
 void CollisionLayer::hash_into(Hash64& hash) const {
-  const FrameMotion& motion = frame_->motion;
-  motion.state().pairs.hash_into(hash);
-  motion.sleep().hash_into(hash);
-  simulation().hash_into(hash);
+  std::as_const(*frame_).motion.hash_into(hash);
 }
 
 }  // namespace poinsot

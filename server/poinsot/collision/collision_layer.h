@@ -29,8 +29,15 @@ struct CollisionReport {
   std::uint32_t searches = 0;  // for impacts
   std::uint64_t search_poses = 0, search_gaps = 0;  // evaluations that they took
   std::uint32_t impacts = 0;                        // located
-  bool crowded = false;      // more impacts in an island than it pays to locate
-  std::uint32_t asleep = 0;  // bodies
+  bool crowded = false;             // more impacts in an island than it pays to locate
+  std::uint32_t asleep = 0;         // bodies
+  std::uint32_t soft_bodies = 0;    // stepped by soft_step
+  std::uint32_t direct_bodies = 0;  // of islands whose contacts convex_newton solved
+  // [m/s] The worst of the solves: of convex_newton how far from the law of contact
+  // (SolveResidual::worst), of soft_step what its last sweep still changed (SoftOutcome::residual).
+  double contact_residual = 0;
+  std::uint32_t solver_iterations = 0;  // of convex_newton, all solves together
+  std::uint32_t unconverged = 0;        // solves of it that did not reach its tolerance
 };
 
 // What one body exerts on another at a point, as last solved. Sleeping pairs keep theirs.

@@ -24,6 +24,7 @@ void ContactStep::begin(const CollisionState& state, double h, double usual, boo
   least_size_ = std::numeric_limits<double>::infinity();
   slip_ = {};
   residual_ = {};
+  iterations_ = 0;
   foresees_ = foresees;
   stops_ = stops;
   stopped_ = false;

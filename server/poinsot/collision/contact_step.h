@@ -28,6 +28,7 @@ class ContactStep {
     std::uint32_t pushing = 0;   // points with an impulse
     double max_penetration = 0;  // [m] after push-out
     SolveResidual residual;      // of the forces
+    int iterations = 0;          // of all solves: forces at every duration tried, impacts, push-out
   };
 
   explicit ContactStep(const CollisionDef& def);
@@ -125,6 +126,7 @@ class ContactStep {
     double inv_h = 0, excess = 0;  // [1/s], [N] of friction over what its cone allows
   } slip_;
   SolveResidual residual_;
+  int iterations_ = 0;
   std::vector<int> records_;
   std::vector<std::size_t> first_point_;  // per record, and the end
   std::vector<Point> points_;

@@ -71,7 +71,7 @@ double ContactStep::while_turning(const CollisionState& state, double h,
       longest = std::min(longest, h * (rolls ? std::sqrt(part) : power(part, 1.0 / 3)));
     }
   }
-  return std::max(longest, std::min(h, kLeastTurn * usual_));
+  return std::max(longest, std::min(h, kLeastTurn * def_.contact_step));
 }
 
 // When the first sliding pair comes to rest, if that is within h: there its friction stops being

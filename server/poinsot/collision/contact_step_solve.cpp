@@ -87,6 +87,7 @@ ContactStep::Outcome ContactStep::solve(CollisionState& state, Books& books) {
   find_movers(state);
   Outcome outcome;
   outcome.residual = residual_;
+  outcome.iterations = iterations_;
   for (const Contact& contact : contacts_) {
     outcome.pushing += contact.normal_impulse > 0 ? 1 : 0;
     outcome.max_penetration = std::max(outcome.max_penetration, -contact.gap);
@@ -133,10 +134,14 @@ bool ContactStep::proves_rest(CollisionState& state) {
 }
 
 void ContactStep::push_out(CollisionState& state, Books& books) {
+  const auto size = [&](std::size_t i) {
+    return state.pairs[records_[static_cast<std::size_t>(points_[i].record)]].size;
+  };
   bool any = false;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)  // far out is out of rest
+    if (contacts_[i].gap < -def_.touch_gap * size(i)) h_ = std::min(h_, usual_);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const double size = state.pairs[records_[static_cast<std::size_t>(points_[i].record)]].size;
-    const double excess = contacts_[i].gap + def_.allowed_penetration * size;
+    const double excess = contacts_[i].gap + def_.allowed_penetration * size(i);
     any = any || excess < 0;
     target_[i] =
         excess >= 0 ? -excess / h_ : std::min(-def_.push_out_rate * excess, def_.push_out_speed);
@@ -152,7 +157,7 @@ void ContactStep::push_out(CollisionState& state, Books& books) {
   solver_.tolerance = kPushedOut * *std::max_element(target_.begin(), target_.end());
   solver_.max_iterations = kMostIterations;
   solver_.acceptable = solver_.tolerance;
-  solver_.push_out(bodies_, contacts_, target_);
+  iterations_ += solver_.push_out(bodies_, contacts_, target_).iterations;
   solver_.tolerance = tolerance;
   for (Contact& contact : contacts_) contact.gap += h_ * relative_speed(contact, bodies_);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -209,7 +214,7 @@ void ContactStep::foresee_impacts(CollisionState& state, Books& books) {
   before_ = bodies_;
   solver_.max_iterations = kMostIterations;
   solver_.acceptable = kAcceptable * def_.contact_tolerance * least_size_ / h_;
-  solver_.solve(bodies_, impacts_, target_);
+  iterations_ += solver_.solve(bodies_, impacts_, target_).iterations;
   for (const Contact& contact : impacts_) {
     const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
     const Vec3 impulse = impulse_of(contact);
@@ -277,11 +282,7 @@ void ContactStep::find_forces(const CollisionState& state, double h) {
   solver_.acceptable =
       std::min(kAcceptable * def_.contact_tolerance * least_size_ / h, kOfSpeed * fastest);
   residual_ = solver_.solve(bodies_, contacts_, target_);
-  {
-    const auto r = residual_;
-    if (!r.converged) {
-    }
-  }
+  iterations_ += residual_.iterations;
 }
 
 void ContactStep::set_duration(CollisionState& state, double h) {
@@ -311,6 +312,7 @@ void ContactStep::act(CollisionState& state) {
 }
 
 void ContactStep::remember(CollisionState& state) {
+  for (const int r : records_) state.pairs[r].by_crowd = false;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     PairPoint& p = point(state, i);
     p.normal_impulse = contacts_[i].normal_impulse;

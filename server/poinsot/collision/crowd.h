@@ -1,10 +1,9 @@
-// The crowd: bodies whose contacts are stepped by soft_step (../contact/soft_step.h), the islands
-// of all of them at once.
+// The crowd: bodies whose contacts are stepped by soft_step (crowd_step.h), the islands of all of
+// them at once. This is who is in it, and what they may touch.
 //
-// An island joins the crowd for a frame if the scene asks for it, or if `auto` finds it accurate
-// enough there, or too large for anything else. Pairs of the crowd are not searched for impacts:
-// their points foresee them, and bodies that would move by more than half their size between two
-// looks at what is near are looked at more often, or, with `auto`, stay out of the crowd.
+// An island joins the crowd for a frame if the scene asks for it, or if `auto` finds it easy enough
+// for the accuracy that is asked for, or too large for anything else. Pairs of the crowd are not
+// searched for impacts: their points foresee them.
 
 #pragma once
 
@@ -12,72 +11,80 @@
 #include <vector>
 
 #include "poinsot/base/parallel.h"
-#include "poinsot/collision/collision_layer.h"
-#include "poinsot/collision/island.h"
-#include "poinsot/contact/soft_step.h"
+#include "poinsot/collision/crowd_step.h"
 
 namespace poinsot {
+
+// Records and bodies that a thread takes at a time.
+template <class Task>
+void run_chunks(Team& team, std::size_t count, const Task& task) {
+  constexpr std::size_t kTogether = 64;
+  team.run((count + kTogether - 1) / kTogether, [&](std::size_t chunk, int) {
+    const std::size_t end = std::min(count, (chunk + 1) * kTogether);
+    for (std::size_t k = chunk * kTogether; k < end; ++k) task(k);
+  });
+}
+
+// No point of body i, which turns at `omega` [rad/s], moves farther in h [s], contacts aside [m].
+double crowd_travel(const CollisionState& state, Eigen::Index i, const Vec3& omega, double h);
 
 class Crowd {
  public:
   explicit Crowd(const CollisionState& state);
 
-  // Whether a body was in the crowd in the last frame, or always is.
+  // Whether a body was in the crowd in the last frame, or is likely to be: its pairs are not
+  // searched before islands are parted.
   bool has(Eigen::Index i) const { return member_[static_cast<std::size_t>(i)] != 0; }
   void set_member(Eigen::Index i, bool member);
 
-  // What the shapes of body i may touch before `h` [s] have passed; whether its boxes hold that.
-  bool look(const CollisionState& state, Eigen::Index i, double h);
+  // What the shapes of its bodies may touch before `h` [s] have passed …
+  void look(const CollisionState& state, double h, Team& team);
+  // … whether the boxes of body i hold that …
+  bool fits(Eigen::Index i) const { return fits_[static_cast<std::size_t>(i)] != 0; }
+  // … and which of its pairs do not touch in this frame.
+  void find_idle(CollisionState& state, Team& team) const;
   // A box for a collider of such a body that is likely to last for some frames.
   Aabb roomy_box(const CollisionState& state, const Collider& collider, double h) const;
-  // Whether a pair may touch in this frame; one body at least is in the crowd and was looked at.
-  bool is_near(const CollisionState& state, const PairRecord& record) const;
 
-  // Whether an island is stepped with the crowd in the frame that begins.
-  bool takes(const CollisionState& state, const Island& island, double duration) const;
+  // Whether bodies are in the crowd unless something speaks against it.
+  bool is_usual() const { return usual_; }
+  // What body i is in is stepped with the crowd in this frame and some more, if it can be.
+  void force(Eigen::Index i) {
+    constexpr std::uint64_t kFrames = 20;
+    forced_[static_cast<std::size_t>(i)] = frame_ + kFrames;
+  }
+  void next_frame();
+  // Whether it was a member when the frame began.
+  bool had(Eigen::Index i) const { return before_[static_cast<std::size_t>(i)] != 0; }
 
-  struct Result {
-    Tally tally;
-    SoftOutcome outcome;       // sums, and the last residual
-    std::uint32_t bodies = 0;  // stepped
-  };
-  // Moves the bodies of these islands from the world's time to t_end.
-  Result advance(CollisionState& state, std::span<Island* const> islands, double t_end, Team& team);
-
-  // The forces of a pair of the crowd in the last sub-step.
-  void add_forces(const CollisionState& state, const PairRecord& record,
-                  std::vector<ContactForce>& forces) const;
+  // Whether soft_step knows all that acts on an island, and the crowd all its shapes.
+  bool may_step(const CollisionState& state, const Island& island) const;
+  // Adds what a continuation depends on.
+  void hash_into(Hash64& hash) const;
+  // Whether an island is stepped with the crowd in the frame that begins. `step`: the last one.
+  bool takes(const CollisionState& state, const Island& island, const CrowdStep& step,
+             double duration);
 
  private:
-  int parts(const CollisionState& state, double duration);
-  void gather_bodies(const CollisionState& state, std::span<Island* const> islands);
-  void measure(CollisionState& state, double h, Team& team);
-  void fill(CollisionState& state, Team& team);
-  void recall(CollisionState& state);
-  int local(const CollisionState& state, int column);
-  void place_immovable(const CollisionState& state, int i, double h);
-  double travel(const CollisionState& state, Eigen::Index i, const Vec3& omega, double h) const;
-  void scatter(CollisionState& state, Result& result);
+  bool look(const CollisionState& state, Eigen::Index i, double h);
+  bool is_near(const CollisionState& state, const PairRecord& record) const;
+  bool is_easy(const CollisionState& state, const Island& island);
+  bool is_shallow(const CollisionState& state, const Island& island);
 
-  std::vector<std::uint8_t> member_;    // per body
+  bool usual_ = false;                // bodies are in the crowd unless something speaks against it
+  std::vector<std::uint8_t> member_;  // per body
+  std::vector<std::uint8_t> before_;  // per body: member_ when the frame began
   std::vector<std::uint8_t> may_step_;  // per body: nothing acts on it that soft_step does not know
-  std::vector<Aabb> near_;              // per collider of a body looked at
-  // Of the bodies that take part, where the step is.
-  std::vector<Pose> pose_;             // per collider
-  std::vector<double> travel_;         // [m] per body: no point of it moves farther in the step
-  std::vector<std::uint64_t> placed_;  // per body that nothing moves: the step it was placed in
-  std::uint64_t step_ = 0;
+  std::vector<std::uint8_t> fits_;      // per body
+  enum class Kind : std::uint8_t { solid, plane, mesh };
+  std::vector<Kind> kind_;  // per collider: close together
+  bool has_mesh_ = false;
+  std::vector<Aabb> near_;  // per collider of a body looked at
 
-  SoftStep solver_;
-  double last_h_ = 0;                  // [s] of a sub-step
-  double now_ = 0;                     // [s] where the step is
-  std::vector<Eigen::Index> columns_;  // bodies that move, in the order of the islands
-  std::vector<int> local_;             // per column; −1: none
-  std::vector<int> immovable_;         // columns among the bodies of the solver
-  std::vector<SoftBody> bodies_;
-  std::vector<int> records_;  // of the islands
-  std::vector<int> active_;   // records that have points
-  std::vector<SoftManifold> manifolds_;
+  std::vector<int> level_;  // per body: of a stack, while it is counted
+  std::uint64_t frame_ = 1;
+  std::vector<std::uint64_t> forced_;  // per body: the frame until which it is
+  std::vector<int> promoted_;          // per body: frames for which it is solved directly
 };
 
 }  // namespace poinsot

@@ -22,6 +22,8 @@ struct CrowdContact {
 
   Pose measured;       // of B's shape in A's frame when the points were last found …
   double margin = -1;  // [m] … and how far apart they were looked for; < 0: never
+  double until = -1;   // [s] the end of the step it was last used in
+  double h = 0;        // [s] sub-step of the impulses; 0: there are none
   int count = 0;
   Vec3 normal_in_a = Vec3::UnitZ();   // unit, from b to a
   Vec3 friction_in_a = Vec3::Zero();  // [N·s] on a, in the frame S of A
@@ -34,7 +36,7 @@ struct CrowdContact {
 
 // Brings a contact to where its shapes are now: points nearer than `margin` [m], and some beyond.
 // Points that continue old ones keep their impulses. A pair of polyhedra that turned and shifted by
-// less than a few thousandths of its size keeps its points; their gaps are then wrong by the square
+// less than a thousandth of its size keeps its points; their gaps are then wrong by the square
 // of that.
 void measure_contact(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                      double size, double margin, CrowdContact& contact);

@@ -22,6 +22,10 @@ constexpr double kThrown = 2;
 // Restarts widen the boxes of strays; from this one on they hold everything.
 constexpr int kLastNarrow = 6;
 constexpr double kEverywhere = 1e9;  // [m]
+// A proof of rest is a direct solve: larger islands of the crowd stay awake.
+constexpr std::size_t kMostProven = 400;
+// An island that strays more often than this joins the crowd, if it can be stepped so.
+constexpr int kMostAlone = 3;
 // No motion that is any needs more; what is left of a frame then ends all the same.
 constexpr int kMostRestarts = 16;
 
@@ -33,6 +37,7 @@ FrameMotion::FrameMotion(const Scene& scene)
       broad_phase_(state_.colliders),
       islands_(scene.bodies.size()),
       crowd_(state_),
+      crowd_step_(state_),
       sleep_(scene.bodies.size()),
       rules_(scene),
       bounded_(scene.bodies.size(), 0),
@@ -69,11 +74,14 @@ void FrameMotion::place_resting(Eigen::Index i) {
 void FrameMotion::advance_to(double t_end, CollisionReport& report,
                              std::vector<ImpactEvent>& impacts, CollisionTimes& times) {
   impacts.clear();
+  crowd_.next_frame();
   report.islands = report.restarts = report.searches = report.impacts = 0;
   report.search_poses = report.search_gaps = 0;
   report.contacts = 0;
   report.max_penetration = 0;
   report.crowded = false;
+  report.soft_bodies = report.direct_bodies = report.solver_iterations = report.unconverged = 0;
+  report.contact_residual = 0;
   if (rests_ && !touched_ && std::isfinite(t_end) && t_end >= state_.world().time) {
     state_.simulation.commit(t_end, {});
     return;
@@ -131,13 +139,14 @@ void FrameMotion::settle_courses() {
 
 void FrameMotion::set_bounds(double t_end) {
   const World& world = state_.world();
+  crowd_.look(state_, t_end - world.time, team_);
   for (Eigen::Index i = 0; i < world.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!state_.is_awake(i) && !world.is_kinematic(i)) continue;
     if (state_.arm[k] == 0 && state_.colliders_of(i).empty()) continue;
     if (crowd_.has(i)) {
       const double h = t_end - world.time;
-      if (!crowd_.look(state_, i, h)) {
+      if (!crowd_.fits(i)) {
         for (const Collider& collider : state_.colliders_of(i))
           place_box(collider, crowd_.roomy_box(state_, collider, h));
         boxes_changed_ = true;
@@ -206,6 +215,7 @@ void FrameMotion::update_pairs() {
 void FrameMotion::find_excited(double t_end, SearchWork& work) {
   IslandMotion& motion = motions_.front();
   const bool searches = state_.def.impact_search != ImpactSearchKind::none;
+  crowd_.find_idle(state_, team_);
   bool all_crowd = true;  // whatever is excited
   bool again = true;
   while (again) {  // until nobody else is woken
@@ -215,9 +225,8 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
       const bool carried =
           state_.world().is_kinematic(record.a) || state_.world().is_kinematic(record.b);
       if (!awake_a && !awake_b && !carried) continue;
-      const bool crowd = crowd_.has(record.a) || crowd_.has(record.b);
-      record.idle = crowd && !crowd_.is_near(state_, record);
       if (record.idle) continue;
+      const bool crowd = crowd_.has(record.a) || crowd_.has(record.b);
       bool hot = record.standing || !searches || crowd;
       if (!hot) {
         const double lasting = std::min(state_.bounds_until[static_cast<std::size_t>(record.a)],
@@ -230,7 +239,7 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
                   crowd_.has(record.b) == state_.is_awake(record.b);
       for (const int body : {record.a, record.b}) {
         const auto k = static_cast<std::size_t>(body);
-        if (state_.asleep[k] != 0 && searches) {
+        if (state_.asleep[k] != 0 && (searches || crowd)) {
           sleep_.wake(state_, body);
           again = true;
         }
@@ -257,8 +266,8 @@ void FrameMotion::find_excited(double t_end, SearchWork& work) {
   for (std::size_t k = 0; k < excited_.size(); ++k)
     if (excited_[k] != 0 && !crowd_.has(static_cast<Eigen::Index>(k))) {
       excite(static_cast<Eigen::Index>(k), t_end, kThrown * thrown_[k]);
-      thrown_[k] = 0;
     }
+  std::fill(thrown_.begin(), thrown_.end(), 0);
   update_pairs();
 }
 
@@ -283,12 +292,19 @@ void FrameMotion::run_islands(double t_end, CollisionReport& report, CollisionTi
   for (int attempt = 0;; ++attempt) {
     const std::span<Island> islands = islands_.all();
     for (IslandMotion& motion : motions_) motion.watches = attempt < kMostRestarts;
-    team_.run(islands.size(), [&](std::size_t k, int thread) {
+    const auto advance = [&](std::size_t k, int thread) {
       Island& island = islands[k];
       if (island.done || island.crowd) return;
       motions_[static_cast<std::size_t>(thread)].advance(state_, island, t_end, islands_.island_of);
       island.done = island.strays.empty();
-    });
+    };
+    if (attempt < kMostRestarts) {
+      team_.run(islands.size(), advance);
+    } else {  // they may look at one another: one after the other, whatever the team
+      for (std::size_t k = 0; k < islands.size(); ++k) advance(k, 0);
+    }
+    if (attempt > kMostRestarts)
+      for (Island& island : islands) island.done = true;
     if (std::all_of(islands.begin(), islands.end(),
                     [](const Island& i) { return i.done || i.crowd; }))
       break;
@@ -310,6 +326,9 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
   for (Island& island : islands_.all()) {
     if (island.done || island.crowd) continue;
     for (const Eigen::Index i : island.bodies) excited_[static_cast<std::size_t>(i)] = 1;
+    // An island that goes wherever it may is no island: the crowd takes it.
+    if (crowd_.is_usual() || attempt >= kMostAlone)
+      for (const Eigen::Index i : island.bodies) crowd_.force(i);
     const int own = islands_.island_of[static_cast<std::size_t>(island.bodies.front())];
     for (const Eigen::Index i : island.strays)
       (islands_.island_of[static_cast<std::size_t>(i)] == own ? left_ : strays_).push_back(i);
@@ -353,10 +372,13 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
       const PairRecord& record = state_.pairs[r];
       const Eigen::Index other = record.a == i ? record.b : record.a;
       const bool known = !state_.is_awake(other) || excited_[static_cast<std::size_t>(other)] != 0;
-      if (!known && touches_now(record)) strays_.push_back(other);
+      if (known || !touches_now(record)) continue;
+      excited_[static_cast<std::size_t>(other)] = 1;  // once is enough
+      strays_.push_back(other);
     }
   }
   update_pairs();
+  crowd_.find_idle(state_, team_);
   islands_.partition(state_, excited_, false);
   choose_crowd(t_end);
 }
@@ -364,14 +386,19 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
 // Of the islands of a new partition: which are stepped with the crowd; the others can go back.
 void FrameMotion::choose_crowd(double t_end) {
   const double duration = t_end - state_.world().time;
-  if (state_.def.contact_solver != ContactSolverKind::soft_step)
-    for (std::size_t k = 0; k < excited_.size(); ++k)
-      if (islands_.island_of[k] < 0) crowd_.set_member(static_cast<Eigen::Index>(k), false);
+  for (std::size_t k = 0; k < excited_.size(); ++k)
+    if (islands_.island_of[k] < 0)
+      crowd_.set_member(static_cast<Eigen::Index>(k), crowd_.is_usual());
   for (Island& island : islands_.all()) {
     if (!island.fresh) continue;
     island.fresh = false;
-    island.crowd = crowd_.takes(state_, island, duration);
-    for (const Eigen::Index i : island.bodies) crowd_.set_member(i, island.crowd);
+    const bool crowd = crowd_.takes(state_, island, crowd_step_, duration);
+    // Who was looked at as one of the crowd has no boxes for anything else: he leaves it a frame
+    // later.
+    const bool leaves = std::any_of(island.bodies.begin(), island.bodies.end(),
+                                    [&](Eigen::Index i) { return crowd_.had(i); });
+    island.crowd = crowd || (leaves && crowd_.may_step(state_, island));
+    for (const Eigen::Index i : island.bodies) crowd_.set_member(i, crowd);
     if (island.crowd) {
       island.result.clear();
       island.strays.clear();
@@ -389,12 +416,14 @@ void FrameMotion::run_crowd(double t_end, CollisionReport& report, CollisionTime
     if (island.crowd) crowd_islands_.push_back(&island);
   if (crowd_islands_.empty()) return;
   const Stopwatch::WallLap lap(times.contact.wall_s);
-  crowd_result_ = crowd_.advance(state_, crowd_islands_, t_end, team_);
+  crowd_result_ = crowd_step_.advance(state_, crowd_islands_, t_end, team_);
   for (Island* island : crowd_islands_) island->done = true;
   report.contacts += crowd_result_.outcome.pushing;
   report.max_penetration = std::max(report.max_penetration, crowd_result_.outcome.max_penetration);
   report.impact_loss += crowd_result_.outcome.loss;
   report.push_out_energy += crowd_result_.outcome.push_out_energy;
+  report.soft_bodies = crowd_result_.bodies;
+  report.contact_residual = crowd_result_.outcome.residual;
 }
 
 void FrameMotion::place_frozen() {
@@ -411,7 +440,8 @@ void FrameMotion::put_to_sleep() {
   const std::span<Island> islands = islands_.all();
   tired_.assign(islands.size(), 0);
   for (std::size_t k = 0; k < islands.size(); ++k) {
-    tired_[k] = sleep_.may_sleep(state_, islands[k]) ? 1 : 0;
+    const bool provable = !islands[k].crowd || islands[k].bodies.size() <= kMostProven;
+    tired_[k] = provable && sleep_.may_sleep(state_, islands[k]) ? 1 : 0;
     if (tired_[k] != 0 && islands[k].crowd)
       for (const int r : islands[k].records) state_.pairs.make_contact(state_.pairs[r]);
   }
@@ -438,12 +468,19 @@ bool FrameMotion::touches_now(const PairRecord& record) const {
   return find_gap(a, pose_a, b, pose_b).value <= touch;
 }
 
+void FrameMotion::hash_into(Hash64& hash) const {
+  state_.pairs.hash_into(hash);
+  sleep_.hash_into(hash);
+  crowd_.hash_into(hash);
+  state_.simulation.hash_into(hash);
+}
+
 void FrameMotion::contact_forces(std::vector<ContactForce>& forces) const {
   forces.clear();
   for (const PairRecord& record : state_.pairs.records()) {
     if (!record.standing) continue;
-    if (crowd_.has(record.a) || crowd_.has(record.b)) {
-      crowd_.add_forces(state_, record, forces);
+    if (record.by_crowd) {
+      crowd_step_.add_forces(state_, record, forces);
       continue;
     }
     const PairContact* contact = state_.pairs.find_contact(record);
@@ -496,6 +533,10 @@ void FrameMotion::close(double t_end, CollisionReport& report, std::vector<Impac
     report.push_out_energy += result.push_out_energy;
     report.impacts += result.impacts;
     report.crowded |= result.crowded;
+    if (result.solved) report.direct_bodies += static_cast<std::uint32_t>(island.bodies.size());
+    report.contact_residual = std::max(report.contact_residual, result.residual);
+    report.solver_iterations += result.iterations;
+    report.unconverged += result.unconverged;
     report.searches += static_cast<std::uint32_t>(result.work.searches);
     report.search_poses += result.work.poses;
     report.search_gaps += result.work.gaps;

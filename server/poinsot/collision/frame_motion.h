@@ -20,11 +20,11 @@ class FrameMotion {
                   CollisionTimes& times);
 
   void contact_forces(std::vector<ContactForce>& forces) const;
+  void hash_into(Hash64& hash) const;
 
   void touch() { touched_ = true; }
   CollisionState& state() { return state_; }
   const CollisionState& state() const { return state_; }
-  const Sleep& sleep() const { return sleep_; }
 
  private:
   void settle_courses();
@@ -52,7 +52,8 @@ class FrameMotion {
   BroadPhase broad_phase_;
   Islands islands_;
   Crowd crowd_;
-  Crowd::Result crowd_result_;
+  CrowdStep crowd_step_;
+  CrowdStep::Result crowd_result_;
   std::vector<Island*> crowd_islands_;
   Sleep sleep_;
   PairRules rules_;

@@ -57,9 +57,10 @@ void Island::restore(CollisionState& state) const {
     PairRecord* record = state.pairs.find(before.pair);
     const bool has_contact = before.contact >= 0;
     if (record != nullptr) {
-      const int contact = record->contact;
+      const int contact = record->contact, crowd_contact = record->crowd_contact;
       *record = before;
       record->contact = contact;
+      record->crowd_contact = crowd_contact;
       record->safe_until = -std::numeric_limits<double>::infinity();
       if (has_contact) state.pairs.contact(*record) = contacts_before[contacts];
     }

@@ -25,6 +25,9 @@ struct Island {
     std::uint32_t contacts = 0;  // points that push, there
     std::uint32_t impacts = 0;   // located
     SearchWork work;
+    bool solved = false;  // contacts were solved directly; of all these solves:
+    double residual = 0;  // [m/s] the worst
+    std::uint32_t iterations = 0, unconverged = 0;
     bool crowded = false;  // more impacts than it located
     std::vector<ImpactEvent> events;
 

@@ -219,6 +219,7 @@ void IslandMotion::watch(Frame& frame, Eigen::Index i, double t) {
   CollisionState& state = frame.state;
   for (const int r : state.pairs.of(i)) {
     const PairRecord& record = state.pairs[r];
+    if (record.idle) continue;  // out of its reach while it keeps to its boxes
     const int other = record.a == i ? record.b : record.a;
     if (state.is_awake(other) && frame.island_of[static_cast<std::size_t>(other)] != frame.id)
       frame.island.strays.push_back(other);
@@ -435,6 +436,11 @@ void IslandMotion::note(Frame& frame, const ContactStep::Outcome& outcome,
   result.max_penetration = outcome.max_penetration;
   result.impact_loss += books.impact_loss;
   result.push_out_energy += books.push_out_energy;
+  if (step_.points() == 0) return;
+  result.solved = true;
+  result.residual = std::max(result.residual, outcome.residual.worst());
+  result.iterations += static_cast<std::uint32_t>(outcome.iterations);
+  result.unconverged += outcome.residual.converged ? 0 : 1;
 }
 
 bool IslandMotion::proves_rest(CollisionState& state, const Island& island) {

@@ -119,6 +119,7 @@ void Islands::fill(CollisionState& state) {
       std::swap(island.contacts_before, before_[static_cast<std::size_t>(before)].contacts_before);
       island.done = true;
       island.fresh = false;
+      island.crowd = false;  // those of the crowd are not done yet
       continue;
     }
     for (const Eigen::Index i : island.bodies) {

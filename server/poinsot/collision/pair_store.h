@@ -48,7 +48,7 @@ struct alignas(64) PairRecord {
   int crowd_contact = -1;  // index into crowd contacts; -1: never near
   bool standing = false;   // touches, and lasts: stepped, not searched
   bool idle = false;       // of a body in the crowd, and apart for this frame
-  bool both_move = false;
+  bool by_crowd = false;   // its forces are those of the crowd contact
 
   // No root of the gap before `safe_until`, on the courses with these stamps; `meeting` tells what
   // is then.

@@ -191,7 +191,9 @@ void NewtonProblem::accept_trial() {
 
 SolveResidual NewtonProblem::measure_trial() const {
   SolveResidual result;
+  double finite = 0;  // NaN passes through maxima unseen
   for (const NewtonPoint& p : points) {
+    finite += 0 * (p.trial.sum() + p.trial_velocity.sum());
     const Vec3 beside = p.trial_velocity - p.target;
     if (p.joint) {
       result.joint = std::max(result.joint, beside.norm());
@@ -207,6 +209,7 @@ SolveResidual NewtonProblem::measure_trial() const {
                          p.w_tangent * p.trial[2] - scale * y[1]};
     result.friction = std::max(result.friction, std::sqrt(e[0] * e[0] + e[1] * e[1]));
   }
+  if (!(finite == 0)) result.normal = std::numeric_limits<double>::infinity();
   return result;
 }
 

@@ -77,6 +77,9 @@ void SoftBodies::set(std::size_t k, const SoftBody& body) {
   mass = SoftMass{};
   energy_[k] = torque_work_[k] = 0;
   course.has_turned = false;
+  course.predicted_v = hot.v;
+  course.predicted_omega = hot.omega;
+  course.kick_v = course.kick_omega = Lanes{};
   if (course.kind < Kind::kRound) return;
   mass.inv_mass = body.inv_mass;
   if (body.turns_evenly) {

@@ -46,6 +46,13 @@ std::string to_text(const RunSummary& s) {
   text += print("impacts       %llu; last frame: %u islands, %u restarts, %u searches, %u asleep\n",
                 static_cast<unsigned long long>(s.last.impacts_so_far), s.last.islands,
                 s.last.restarts, s.last.impact_searches, s.last.asleep);
+  text += print("contacts      %u, deepest %.3g m (last frame)\n", s.last.contacts,
+                s.last.max_penetration);
+  text += print(
+      "solvers       last frame: %u bodies soft_step, %u convex_newton in %u iterations,\n"
+      "              %u unconverged, residual %.3g m/s\n",
+      s.last.soft_bodies, s.last.direct_bodies, s.last.solver_iterations, s.last.unconverged,
+      s.last.contact_residual);
   text += print("energy error  %.3g\n", s.last.energy_error);
   text += print("momentum      error %.3g\n", s.last.momentum_error);
   text += print("local error   %.3g m, %.3g rad (last frame)\n", s.last.position_error,
@@ -77,6 +84,11 @@ std::string to_json(const RunSummary& s) {
       static_cast<unsigned long long>(s.last.impacts_so_far), s.last.islands, s.last.restarts,
       s.last.impact_searches, s.last.asleep,
       has_flag(s.last.flags, FrameFlag::crowded) ? "true" : "false");
+  text += print(
+      "\"soft_bodies\": %u, \"direct_bodies\": %u, \"solver_iterations\": %u, \"unconverged\": %u, "
+      "\"contact_residual\": %.9g, \"max_penetration\": %.9g, ",
+      s.last.soft_bodies, s.last.direct_bodies, s.last.solver_iterations, s.last.unconverged,
+      s.last.contact_residual, s.last.max_penetration);
   text += "\"methods\": {" + methods + "}, ";
   return text +
          print("\"state_hash\": \"%016llx\"}\n", static_cast<unsigned long long>(s.state_hash));

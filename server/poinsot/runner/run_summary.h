@@ -28,7 +28,9 @@ std::string to_text(const RunSummary& summary);
 // One line, one object: frames, sim_time [s], wall_s, cpu_s {presentation, collision, contact,
 // simulation, publishing}, bodies, energy_error, momentum_error, position_error [m],
 // orientation_error [rad], impacts (of the last epoch), islands, restarts, impact_searches, asleep,
-// crowded (of the last frame), methods {name: bodies}, state_hash (16 hexadecimal digits).
+// crowded, soft_bodies, direct_bodies, solver_iterations, unconverged, contact_residual [m/s],
+// max_penetration [m] (of the last frame), methods {name: bodies}, state_hash (16 hexadecimal
+// digits).
 std::string to_json(const RunSummary& summary);
 
 }  // namespace poinsot

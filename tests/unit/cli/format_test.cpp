@@ -129,6 +129,11 @@ TEST(StatusText, CountsIslandsSearchesImpactsAndSleepers) {
   report.frame.islands = 2;
   report.frame.restarts = 1;
   report.frame.impact_searches = 12;
+  report.frame.soft_bodies = 5;
+  report.frame.direct_bodies = 2;
+  report.frame.solver_iterations = 31;
+  report.frame.unconverged = 1;
+  report.frame.contact_residual = 2.5e-4;
   report.frame.impacts = 3;
   report.frame.impacts_so_far = 40;
   report.frame.flags = FrameFlag::crowded;
@@ -136,8 +141,11 @@ TEST(StatusText, CountsIslandsSearchesImpactsAndSleepers) {
   const std::string text = status_text("push_me", report);
   for (const char* line :
        {"bodies       9 moving, 4 asleep, 0 quarantined\n",
-        "islands      2, 1 restarts, 12 impact searches\n", "impacts      3, 40 in all\n",
-        "dropped      0 snapshots, 5 events\n", "flags        crowded\n"})
+        "islands      2, 1 restarts, 12 impact searches\n",
+        "solvers      5 bodies soft_step, 2 convex_newton in 31 iterations, 1 unconverged, "
+        "residual 0.00025 m/s\n",
+        "impacts      3, 40 in all\n", "dropped      0 snapshots, 5 events\n",
+        "flags        crowded\n"})
     EXPECT_NE(text.find(line), std::string::npos) << text;
 }
 

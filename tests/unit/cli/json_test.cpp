@@ -159,6 +159,11 @@ TEST(StatusJson, CountsIslandsSearchesImpactsAndSleepers) {
   report.frame.impacts = 5;
   report.frame.impacts_so_far = 6;
   report.frame.asleep = 7;
+  report.frame.soft_bodies = 9;
+  report.frame.direct_bodies = 10;
+  report.frame.solver_iterations = 11;
+  report.frame.unconverged = 12;
+  report.frame.contact_residual = 1e-4 / 3;
   report.frame.flags = FrameFlag::crowded;
   report.events_dropped = 8;
   const json status = parsed(status_json("push_me", report, {}));
@@ -168,6 +173,11 @@ TEST(StatusJson, CountsIslandsSearchesImpactsAndSleepers) {
   EXPECT_EQ(status["impacts"], 5);
   EXPECT_EQ(status["impacts_so_far"], 6);
   EXPECT_EQ(status["asleep"], 7);
+  EXPECT_EQ(status["soft_bodies"], 9);
+  EXPECT_EQ(status["direct_bodies"], 10);
+  EXPECT_EQ(status["solver_iterations"], 11);
+  EXPECT_EQ(status["unconverged"], 12);
+  EXPECT_EQ(status["contact_residual"].get<double>(), 1e-4 / 3);
   EXPECT_EQ(status["events_dropped"], 8);
   EXPECT_EQ(status["flags"], json({"crowded"}));
 }

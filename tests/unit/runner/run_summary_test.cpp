@@ -26,6 +26,13 @@ RunSummary example() {
   s.last.restarts = 3;
   s.last.impact_searches = 4;
   s.last.asleep = 5;
+  s.last.contacts = 48;
+  s.last.soft_bodies = 6;
+  s.last.direct_bodies = 7;
+  s.last.solver_iterations = 8;
+  s.last.unconverged = 9;
+  s.last.contact_residual = 5.5e-4;
+  s.last.max_penetration = 6.5e-5;
   s.last.flags = FrameFlag::crowded;
   s.state_hash = 0xabcdef;
   return s;
@@ -39,7 +46,9 @@ TEST(RunSummary, JsonIsOneLineWithTheHashInSixteenDigits) {
       "\"bodies\": 12, \"energy_error\": 1.5e-06, \"momentum_error\": 2.5e-14, "
       "\"position_error\": 3.5e-15, \"orientation_error\": 4.5e-16, \"impacts\": 227, \"islands\": "
       "2, "
-      "\"restarts\": 3, \"impact_searches\": 4, \"asleep\": 5, \"crowded\": true, \"methods\": "
+      "\"restarts\": 3, \"impact_searches\": 4, \"asleep\": 5, \"crowded\": true, "
+      "\"soft_bodies\": 6, \"direct_bodies\": 7, \"solver_iterations\": 8, \"unconverged\": 9, "
+      "\"contact_residual\": 0.00055, \"max_penetration\": 6.5e-05, \"methods\": "
       "{\"none\": 1, "
       "\"flight\": 8, \"taylor\": 3, \"dop853\": 0, \"dopri5\": 0, \"rosenbrock\": 0, \"rk4\": 0, "
       "\"semi_implicit_euler\": 0, \"explicit_euler\": 0}, \"state_hash\": "
@@ -51,7 +60,10 @@ TEST(RunSummary, TextNamesEveryFigure) {
   for (const char* part :
        {"600", "10 s", "0.25 s", "factor 40", "presentation 0.5 s", "publishing 8 s",
         "12: flight 8, taylor 3\n",
-        "227; last frame: 2 islands, 3 restarts, 4 searches, 5 asleep\n", "energy error  1.5e-06\n",
+        "227; last frame: 2 islands, 3 restarts, 4 searches, 5 asleep\n",
+        "contacts      48, deepest 6.5e-05 m",
+        "6 bodies soft_step, 7 convex_newton in 8 iterations,\n",
+        "              9 unconverged, residual 0.00055 m/s\n", "energy error  1.5e-06\n",
         "momentum      error 2.5e-14\n", "3.5e-15 m, 4.5e-16 rad", "0000000000abcdef"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }

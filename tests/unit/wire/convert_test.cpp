@@ -31,7 +31,7 @@ TEST(Convert, ABodyKeepsEveryField) {
   expect_round_trip<msg::v2::BodyDescription>(sample::body_info(4, 9));
 }
 TEST(Convert, AReportKeepsEveryField) {
-  expect_round_trip<msg::v3::RunStatus>(sample::report());
+  expect_round_trip<msg::v4::RunStatus>(sample::report());
 }
 TEST(Convert, AWrenchKeepsEveryField) {
   expect_round_trip<msg::v1::BodyWrench>(sample::wrench());
@@ -74,7 +74,7 @@ TEST(Convert, AFrameIntoAUsedSampleLeavesNothingOfTheOldOne) {
 TEST(Convert, AReportIntoAUsedSampleLeavesNothingOfTheOldOne) {
   RunReport longer = sample::report();
   longer.body_methods.resize(100, Method::rk4);
-  msg::v3::RunStatus wire;
+  msg::v4::RunStatus wire;
   RunReport back;
   for (const RunReport& report : {longer, sample::report()}) {
     ASSERT_EQ(to_message(report, wire), "");
@@ -87,10 +87,10 @@ TEST(Convert, EveryMethodKeepsItsNumber) {
   RunReport report = sample::report();
   report.body_methods.clear();
   for (const auto& row : kMethodNames) report.body_methods.push_back(row.value);
-  expect_round_trip<msg::v3::RunStatus>(report);
-  EXPECT_EQ(msg::v3::METHOD_FLIGHT, static_cast<std::uint8_t>(Method::flight));
-  EXPECT_EQ(msg::v3::METHOD_ROSENBROCK, static_cast<std::uint8_t>(Method::rosenbrock));
-  EXPECT_EQ(msg::v3::METHOD_EXPLICIT_EULER, static_cast<std::uint8_t>(Method::explicit_euler));
+  expect_round_trip<msg::v4::RunStatus>(report);
+  EXPECT_EQ(msg::v4::METHOD_FLIGHT, static_cast<std::uint8_t>(Method::flight));
+  EXPECT_EQ(msg::v4::METHOD_ROSENBROCK, static_cast<std::uint8_t>(Method::rosenbrock));
+  EXPECT_EQ(msg::v4::METHOD_EXPLICIT_EULER, static_cast<std::uint8_t>(Method::explicit_euler));
 }
 
 TEST(Convert, EveryKindOfShapeKeepsItsParameters) {
@@ -200,7 +200,7 @@ TEST(Convert, WhatDoesNotFitIsNotSent) {
   EXPECT_NE(to_message(info, body), "");
   RunReport report = sample::report();
   report.body_methods.resize(kMaxBodies + 1);
-  msg::v3::RunStatus status;
+  msg::v4::RunStatus status;
   EXPECT_NE(to_message(report, status), "");
   WrenchCommand wrench = sample::wrench();
   wrench.body_name = "\xFF";
@@ -309,10 +309,10 @@ TEST(Convert, MalformedPosesAreRefusedWithTheReason) {
 }
 
 TEST(Convert, MalformedReportsAreRefusedWithTheReason) {
-  using Wire = msg::v3::RunStatus;
+  using Wire = msg::v4::RunStatus;
   expect_refusals<RunReport, Wire>(
       sample::report(),
-      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v3::RunStateKind>(4)); }},
+      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v4::RunStateKind>(4)); }},
        {"flags are unknown", [](Wire& w) { w.flags(32); }},
        {"position_error is not finite", [](Wire& w) { w.position_error(kNaN); }},
        {"orientation_error is not finite", [](Wire& w) { w.orientation_error(kInfinity); }},
@@ -320,6 +320,7 @@ TEST(Convert, MalformedReportsAreRefusedWithTheReason) {
        {"body_methods 9 is unknown", [](Wire& w) { w.body_methods()[2] = 9; }},
        {"body_methods: more than 131072", [](Wire& w) { w.body_methods().resize(kMaxBodies + 1); }},
        {"energy is not finite", [](Wire& w) { w.energy(kNaN); }},
+       {"contact_residual is not finite", [](Wire& w) { w.contact_residual(kNaN); }},
        {"contact_time is not finite", [](Wire& w) { w.contact_time().cpu_s(kInfinity); }}});
 }
 
