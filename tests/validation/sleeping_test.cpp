@@ -29,6 +29,28 @@ TEST(Sleeping, ATowerFallsAsleepAndThenNothingIsDone) {
   EXPECT_EQ(std::as_const(layer).world().y, before);
 }
 
+// A tower that is built at rest is proven at the first look, whatever its height; one look is made
+// every eight frames.
+TEST(Sleeping, TowersSleepAtTheFirstLook) {
+  for (const int boxes : {1, 10, 30}) {
+    CollisionLayer layer(tower(boxes));
+    test::run_until(layer, 0.3);
+    EXPECT_EQ(layer.report().asleep, static_cast<std::uint32_t>(boxes));
+  }
+}
+
+TEST(Sleeping, AWallSleepsAtTheFirstLook) {
+  constexpr int kWide = 12, kHigh = 8;
+  std::vector<BodyDef> bodies = {test::ground()};
+  for (int z = 0; z < kHigh; ++z)
+    for (int x = 0; x < kWide; ++x)
+      bodies.push_back(test::body("brick" + std::to_string(kWide * z + x), Box{{0.98, 0.5, 0.5}},
+                                  {x + 0.25 * (z % 2), 0, 0.25 + 0.5 * z}));
+  CollisionLayer layer(test::scene(std::move(bodies)));
+  test::run_until(layer, 0.5);
+  EXPECT_EQ(layer.report().asleep, static_cast<std::uint32_t>(kWide * kHigh));
+}
+
 TEST(Sleeping, APushWakesTheWholeTower) {
   CollisionLayer layer(tower(3));
   test::run_until(layer, 20);

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "poinsot/collision/contact_step.h"
-#include "poinsot/math/elementary.h"
 #include "poinsot/math/rotation.h"
 
 namespace poinsot {
@@ -12,24 +11,12 @@ namespace {
 constexpr double kRestingSteps = 2.0;
 // Slower ones still are left to the standing contact, which stops them within the sub-step.
 constexpr double kImpactSteps = 0.25;
-// Planes of contact hold while the bodies turn their surfaces by less than this of the size.
-constexpr double kTurned = 0.15;
 // Of the speed at which penetration is removed: how well it is met.
 constexpr double kPushedOut = 1e-3;
-// No less than this of the usual sub-step, however fast bodies turn where they touch.
-constexpr double kLeastTurn = 1.0 / 4, kLeastPart = 1e-12;
-// A slip that goes no farther than this of the tolerance in a sub-step is rest; and nothing shorter
-// than kLeastSlip of a sub-step is stopped for.
-constexpr double kNoSlip = 0.2;
-constexpr double kLeastSlip = 1e-3;
 // Of the tolerance: what velocities that are hard to find may be wrong by in a sub-step. When even
 // that takes too many iterations, the next sub-step goes on from the impulses found.
 constexpr double kAcceptable = 0.1, kOfSpeed = 1e-3;  // … and of what moves fastest
 constexpr int kMostIterations = 150, kProofIterations = 60;
-// Iterations from which a solve is too dear to be made again for a stop.
-constexpr int kDear = 24;
-// A pair that comes to rest at the end of a sub-step has full friction to this, relative.
-constexpr double kFullSlip = 1e-7;
 // A point is inside its cone by this much, relative: below it an equilibrium is not proven.
 constexpr double kInsideCone = 1e-3;
 
@@ -39,14 +26,6 @@ double relative_speed(const Contact& contact, std::span<const ContactBody> bodie
   const Vec3 at_a = a.v + a.omega.cross(contact.point - a.c);
   const Vec3 at_b = b.v + b.omega.cross(contact.point - b.c);
   return contact.normal.dot(at_a - at_b);
-}
-
-Vec3 slip_of(const Contact& contact, std::span<const ContactBody> bodies) {
-  const ContactBody& a = bodies[static_cast<std::size_t>(contact.a)];
-  const ContactBody& b = bodies[static_cast<std::size_t>(contact.b)];
-  const Vec3 v = contact.carried + (a.v + a.omega.cross(contact.point - a.c)) -
-                 (b.v + b.omega.cross(contact.point - b.c));
-  return v - contact.normal.dot(v) * contact.normal;
 }
 
 Vec3 impulse_of(const Contact& contact) {
@@ -120,9 +99,10 @@ bool ContactStep::proves_rest(CollisionState& state) {
   const World& world = state.world();
   const double still = def_.sleep_acceleration * h_;
   if (contacts_.empty()) return false;
+  const double deepest = std::max(2 * def_.allowed_penetration, def_.contact_tolerance);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {  // what is pushed apart moves
     const double size = state.pairs[records_[static_cast<std::size_t>(points_[i].record)]].size;
-    if (contacts_[i].gap < -2 * def_.allowed_penetration * size) return false;
+    if (contacts_[i].gap < -deepest * size) return false;
   }
   gather(world);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -135,9 +115,11 @@ bool ContactStep::proves_rest(CollisionState& state) {
     body.v = (h_ * body.inv_mass) * w.force;
     body.omega = h_ * (body.inv_J_W * w.torque);
   }
-  target_.assign(contacts_.size(), 0);
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
+  target_.resize(contacts_.size());
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
     target_[i] = -std::max(contacts_[i].gap, 0.0) / h_;
+    contacts_[i].friction *= 1 - kInsideCone;  // what slid into place pushes with all of it
+  }
   solver_.max_iterations = kProofIterations;
   solver_.acceptable = 0;
   if (!solver_.solve(bodies_, contacts_, target_).converged) return false;
@@ -148,17 +130,18 @@ bool ContactStep::proves_rest(CollisionState& state) {
         !(bodies_[k].v.norm() <= still && arm * bodies_[k].omega.norm() <= still))
       return false;
   }
-  return std::all_of(contacts_.begin(), contacts_.end(), [](const Contact& contact) {
-    const double limit = (1 - kInsideCone) * contact.friction * contact.normal_impulse;
-    return contact.friction_impulse.squaredNorm() <= limit * limit;
-  });
+  return true;
 }
 
 void ContactStep::push_out(CollisionState& state, Books& books) {
+  const auto size = [&](std::size_t i) {
+    return state.pairs[records_[static_cast<std::size_t>(points_[i].record)]].size;
+  };
   bool any = false;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)  // far out is out of rest
+    if (contacts_[i].gap < -def_.touch_gap * size(i)) h_ = std::min(h_, usual_);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const double size = state.pairs[records_[static_cast<std::size_t>(points_[i].record)]].size;
-    const double excess = contacts_[i].gap + def_.allowed_penetration * size;
+    const double excess = contacts_[i].gap + def_.allowed_penetration * size(i);
     any = any || excess < 0;
     target_[i] =
         excess >= 0 ? -excess / h_ : std::min(-def_.push_out_rate * excess, def_.push_out_speed);
@@ -176,17 +159,16 @@ void ContactStep::push_out(CollisionState& state, Books& books) {
   solver_.acceptable = solver_.tolerance;
   iterations_ += solver_.push_out(bodies_, contacts_, target_).iterations;
   solver_.tolerance = tolerance;
-  const double h = std::min(h_, usual_);  // a longer one may yet be cut
-  for (Contact& contact : contacts_) contact.gap += h * relative_speed(contact, bodies_);
+  for (Contact& contact : contacts_) contact.gap += h_ * relative_speed(contact, bodies_);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];
     if (!world.moves(i) || (bodies_[k].v.isZero(0) && bodies_[k].omega.isZero(0))) continue;
     const double spin_energy = rotational_energy(world, i);
-    position(world.y, i) += h * bodies_[k].v;
-    turn(world, i, h * bodies_[k].omega);
+    position(world.y, i) += h_ * bodies_[k].v;
+    turn(world, i, h_ * bodies_[k].omega);
     const double added =
         rotational_energy(world, i) - spin_energy -
-        world.mass[static_cast<std::size_t>(i)] * h * world.gravity.dot(bodies_[k].v);
+        world.mass[static_cast<std::size_t>(i)] * h_ * world.gravity.dot(bodies_[k].v);
     if (std::isfinite(added)) books.push_out_energy += added;
   }
 }
@@ -327,108 +309,6 @@ void ContactStep::act(CollisionState& state) {
     const auto speed = [&](const ContactBody& b) { return b.v.norm() + arm * b.omega.norm(); };
     fastest_[k] = h_ * std::max(speed(before_[k]), speed(bodies_[k]));
   }
-}
-
-// A sub-step shorter than h that is to be tried instead; h if it is good.
-double ContactStep::shorter(const CollisionState& state, double h) {
-  if (h > usual_) {  // only rest is stepped longer than usual
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      const double arm = state.arm[static_cast<std::size_t>(columns_[k])];
-      const double travel = h * (bodies_[k].v.norm() + arm * bodies_[k].omega.norm());
-      if (state.is_awake(columns_[k]) && !(travel <= def_.contact_tolerance * arm)) return usual_;
-    }
-  }
-  if (!stops_ || residual_.iterations > kDear) return h;
-  constexpr double kMuchTooLong = 0.5;  // of h: less is left to the next sub-step
-  const double turning = while_turning(state, h, bodies_);
-  const double end = turning < kMuchTooLong * h ? turning : end_of_slip(state, h);
-  stopped_ = stopped_ || end < h;
-  return end;
-}
-
-// While bodies turn about where they touch, what is touched leaves the plane of contact by the cube
-// of the angle, of what rolls on corners by its square: how long, at most h, until that exceeds the
-// tolerance.
-double ContactStep::while_turning(const CollisionState& state, double h,
-                                  std::span<const ContactBody> bodies) const {
-  double longest = h;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& contact = contacts_[i];
-    if (!(contact.normal_impulse > 0)) continue;
-    const bool rolls = points_[i].motion.is_round_a || points_[i].motion.is_round_b;
-    for (const int body : {contact.a, contact.b}) {
-      const auto k = static_cast<std::size_t>(body);
-      if (!state.has_corners[static_cast<std::size_t>(columns_[k])]) continue;
-      const Vec3 omega = bodies[k].omega - contact.normal.dot(bodies[k].omega) * contact.normal;
-      const double angle = h * omega.norm();
-      const double change = h * (bodies[k].omega - before_[k].omega).norm();
-      const double error = rolls ? 0.5 * angle * angle : angle * (angle * angle / 12 + change);
-      if (!(error > def_.contact_tolerance)) continue;
-      const double part = std::max(def_.contact_tolerance / error, kLeastPart);
-      longest = std::min(longest, h * (rolls ? std::sqrt(part) : power(part, 1.0 / 3)));
-    }
-  }
-  return std::max(longest, std::min(h, kLeastTurn * def_.contact_step));
-}
-
-// When the first sliding pair comes to rest, if that is within h: there its friction stops being
-// that of sliding. While it slides the force it would take to stop it within h is linear in 1/h.
-double ContactStep::end_of_slip(const CollisionState& state, double h) {
-  double end = h;
-  Slip first;
-  for (std::size_t r = 0; r < records_.size(); ++r) {
-    Vec3 slip = Vec3::Zero(), slip_after = Vec3::Zero(), friction = Vec3::Zero();
-    double limit = 0, count = 0;
-    for (std::size_t i = first_point_[r]; i < first_point_[r + 1]; ++i) {
-      const Contact& contact = contacts_[i];
-      if (!(contact.normal_impulse > 0)) continue;
-      slip += slip_at_start(i);
-      slip_after += slip_of(contact, bodies_);
-      friction += contact.friction_impulse / h;
-      limit += contact.friction * contact.normal_impulse / h;
-      ++count;
-    }
-    if (count == 0 || limit <= 0) continue;
-    const double speed = slip.norm() / count;
-    const double rest = kNoSlip * def_.contact_tolerance *
-                        state.pairs.records()[static_cast<std::size_t>(records_[r])].size / h;
-    if (speed <= rest || slip_after.norm() / count > rest) continue;
-    const double excess = -friction.dot(slip) / slip.norm() - limit;
-    if (excess >= -kFullSlip * limit) continue;  // it ends here
-    const Slip now{static_cast<int>(r), 1 / h, excess};
-    double inv_end;
-    if (slip_.record == now.record && slip_.inv_h != now.inv_h) {  // secant
-      inv_end = now.inv_h - excess * (now.inv_h - slip_.inv_h) / (excess - slip_.excess);
-    } else {  // as if nothing but this friction slowed it
-      inv_end = now.inv_h * limit / std::max(limit + excess, kLeastPart * limit);
-    }
-    const double at = 1 / inv_end;
-    if (!(at > kLeastSlip * usual_ && at < end)) continue;
-    end = at;
-    first = now;
-  }
-  slip_ = first;
-  return end;
-}
-
-double ContactStep::sound_part(const CollisionState& state) const {
-  double part = 1;
-  for (std::size_t r = 0; r < records_.size(); ++r) {
-    if (first_point_[r] == first_point_[r + 1]) continue;
-    const PairRecord& record = state.pairs.records()[static_cast<std::size_t>(records_[r])];
-    const double most = kTurned * record.size;
-    for (const int column : {record.a, record.b}) {
-      const auto body = static_cast<std::size_t>(local_of_[static_cast<std::size_t>(column)]);
-      const double turned =
-          h_ * state.arm[static_cast<std::size_t>(column)] * bodies_[body].omega.norm();
-      if (turned > most) part = std::min(part, most / turned);
-    }
-  }
-  for (std::size_t k = 0; k < fastest_.size() && k < columns_.size(); ++k) {
-    const double allowed = std::max(travel_[k], room_[k]);
-    if (fastest_[k] > allowed) part = std::min(part, allowed / fastest_[k]);
-  }
-  return part;
 }
 
 void ContactStep::remember(CollisionState& state) {

@@ -166,6 +166,43 @@ TEST(ConvexNewton, PointMassesAndPlanarBodiesAreSolved) {
   EXPECT_EQ(problem.bodies[2].omega.x(), 0);
 }
 
+// As if the ground moved the other way.
+TEST(ConvexNewton, WhatAContactCarriesCountsAsItsVelocity) {
+  ContactProblem problem, moved;
+  const Vec3 carried(0.03, -0.02, 0.01);
+  for (ContactProblem* p : {&problem, &moved}) {
+    p->add_ground();
+    p->add_box(1, {1, 1, 1}, {0, 0, 0.5});
+    p->add_square(1, 0, Vec3::Zero(), 0.5, 0.5, 0.6);
+    p->fall();
+  }
+  moved.bodies[0].v = -carried;
+  for (Contact& contact : problem.contacts) contact.carried = carried;
+  ConvexNewton solver;
+  for (ContactProblem* p : {&problem, &moved})
+    EXPECT_TRUE(solver.solve(p->bodies, p->contacts, p->target, p->joints).converged);
+  EXPECT_LT((problem.bodies[1].v - moved.bodies[1].v).norm(), 1e-12);
+  EXPECT_LT((problem.bodies[1].v + carried).norm(), 1e-10);
+}
+
+TEST(ConvexNewton, ASolveThatTakesLongEndsWithWhatIsAcceptable) {
+  ContactProblem exact = wall(6, 1, 6);
+  exact.fall();
+  for (std::size_t k = 1; k < exact.bodies.size(); ++k)
+    exact.bodies[k].v.x() += 0.1 * static_cast<double>(k % 3);
+  ContactProblem loose = exact;
+  ConvexNewton solver;
+  const SolveResidual strict =
+      solver.solve(exact.bodies, exact.contacts, exact.target, exact.joints);
+  solver.acceptable = 1e-5;
+  const SolveResidual eased =
+      solver.solve(loose.bodies, loose.contacts, loose.target, loose.joints);
+  EXPECT_TRUE(eased.converged);
+  EXPECT_LE(eased.iterations, strict.iterations);
+  const double many = std::max(1.0, eased.iterations / 12.0);
+  EXPECT_LE(eased.worst(), 1e-5 * many * many * many * many);
+}
+
 TEST(ConvexNewton, ABodyOfInfiniteMassBringsItsVelocity) {
   ContactProblem problem;
   problem.add_ground();
