@@ -8,6 +8,9 @@ namespace {
 // Looks at something that another thread is about to change, before it is worth sleeping: some tens
 // of microseconds.
 constexpr int kSpins = 1000;
+// A helper looks for the next job longer: what a frame does between two of them takes a fraction of
+// a millisecond, and waking up takes as long.
+constexpr int kHelperSpins = 20000;
 
 void pause() {
 #ifdef __x86_64__
@@ -55,7 +58,7 @@ void Team::run(const Job& job) {
 void Team::help(int thread) {
   std::size_t seen = 0;
   while (true) {
-    for (int spin = 0; spin < kSpins && round_.load(std::memory_order_relaxed) == seen && !stop_;
+    for (int spin = 0; spin < kHelperSpins && round_.load(std::memory_order_relaxed) == seen && !stop_;
          ++spin)
       pause();
     Job job;

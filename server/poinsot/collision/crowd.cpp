@@ -78,13 +78,22 @@ Crowd::Crowd(const CollisionState& state)
     has_mesh_ = has_mesh_ || mesh;
   }
   usual_ = prefers_crowd(state.def);
-  if (state.def.contact_solver == ContactSolverKind::soft_step) member_ = may_step_;
+  const auto moving = static_cast<std::size_t>(std::count(may_step_.begin(), may_step_.end(), 1));
+  everybody_ =
+      state.def.contact_solver == ContactSolverKind::soft_step || (usual_ && moving > kMostMoving);
+  if (everybody_) member_ = may_step_;
 }
 
 void Crowd::next_frame() {
   ++frame_;
   before_ = member_;
   for (int& frames : promoted_) frames = std::max(0, frames - 1);
+}
+
+bool Crowd::is_forced(const Island& island) const {
+  return std::any_of(island.bodies.begin(), island.bodies.end(), [&](Eigen::Index i) {
+    return forced_[static_cast<std::size_t>(i)] >= frame_;
+  });
 }
 
 void Crowd::hash_into(Hash64& hash) const {
@@ -126,7 +135,7 @@ void Crowd::find_idle(CollisionState& state, Team& team) const {
   const std::span<PairRecord> records = state.pairs.records();
   run_chunks(team, records.size(), [&](std::size_t k) {
     PairRecord& record = records[k];
-    record.idle = (has(record.a) || has(record.b)) && !is_near(state, record);
+    record.idle = (had(record.a) || had(record.b)) && !is_near(state, record);
   });
 }
 
@@ -144,7 +153,7 @@ Aabb Crowd::roomy_box(const CollisionState& state, const Collider& collider, dou
 bool Crowd::is_near(const CollisionState& state, const PairRecord& record) const {
   const auto box = [&](int collider, int body) -> const Aabb& {
     const auto c = static_cast<std::size_t>(collider);
-    return has(body) && state.is_awake(body) ? near_[c] : state.bound[c];
+    return had(body) && state.is_awake(body) ? near_[c] : state.bound[c];
   };
   const auto is_plane = [&](int collider) {
     return kind_[static_cast<std::size_t>(collider)] == Kind::plane;
@@ -170,18 +179,32 @@ bool Crowd::may_step(const CollisionState& state, const Island& island) const {
   });
 }
 
+// Bodies of the island that something stands on or that stand on something.
+std::size_t Crowd::count_standing(const CollisionState& state, const Island& island) {
+  for (const Eigen::Index i : island.bodies) level_[static_cast<std::size_t>(i)] = 0;
+  for (const int r : island.records) {
+    const PairRecord& record = state.pairs.records()[static_cast<std::size_t>(r)];
+    if (!record.standing) continue;
+    for (const int body : {record.a, record.b})
+      if (state.is_awake(body)) level_[static_cast<std::size_t>(body)] = 1;
+  }
+  return static_cast<std::size_t>(
+      std::count_if(island.bodies.begin(), island.bodies.end(),
+                    [&](Eigen::Index i) { return level_[static_cast<std::size_t>(i)] != 0; }));
+}
+
 bool Crowd::takes(const CollisionState& state, const Island& island, const CrowdStep& step,
                   double duration) {
   const ContactSolverKind kind = state.def.contact_solver;
   if (kind == ContactSolverKind::convex_newton || !may_step(state, island)) return false;
   if (kind == ContactSolverKind::soft_step) return true;
-  for (const Eigen::Index i : island.bodies)
-    if (forced_[static_cast<std::size_t>(i)] >= frame_) return true;
+  if (is_forced(island) || island.bodies.size() > kMostResting) return true;
+  const std::size_t standing = count_standing(state, island);
   bool promoted = false, rests = true;
   for (const Eigen::Index i : island.bodies) {
     const auto k = static_cast<std::size_t>(i);
     const double way = crowd_travel(state, i, angular_velocity(state.world(), i), duration);
-    if (way > kFast * least_size(state, i) && island.bodies.size() <= kMostMoving) return false;
+    if (way > kFast * least_size(state, i) && standing <= kMostMoving) return false;
     const bool slow =
         duration * linear_velocity(state.world(), i).norm() <= kSlow * least_size(state, i);
     rests = rests && slow;
@@ -189,7 +212,7 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
       promoted_[k] = kPromotedFrames;
     promoted = promoted || promoted_[k] > 0;
   }
-  if (island.bodies.size() > (rests && !usual_ ? kMostResting : kMostMoving)) return true;
+  if (standing > (rests && !usual_ ? kMostResting : kMostMoving)) return true;
   return !promoted && is_easy(state, island);
 }
 

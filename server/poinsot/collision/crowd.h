@@ -48,11 +48,15 @@ class Crowd {
 
   // Whether bodies are in the crowd unless something speaks against it.
   bool is_usual() const { return usual_; }
+  // Whether bodies that touch nothing are in it too: if there are many, their impacts are not worth
+  // a search.
+  bool is_everybody() const { return everybody_; }
   // What body i is in is stepped with the crowd in this frame and some more, if it can be.
   void force(Eigen::Index i) {
     constexpr std::uint64_t kFrames = 20;
     forced_[static_cast<std::size_t>(i)] = frame_ + kFrames;
   }
+  bool is_forced(const Island& island) const;
   void next_frame();
   // Whether it was a member when the frame began.
   bool had(Eigen::Index i) const { return before_[static_cast<std::size_t>(i)] != 0; }
@@ -68,9 +72,11 @@ class Crowd {
  private:
   bool look(const CollisionState& state, Eigen::Index i, double h);
   bool is_near(const CollisionState& state, const PairRecord& record) const;
+  std::size_t count_standing(const CollisionState& state, const Island& island);
   bool is_easy(const CollisionState& state, const Island& island);
   bool is_shallow(const CollisionState& state, const Island& island);
 
+  bool everybody_ = false;
   bool usual_ = false;                // bodies are in the crowd unless something speaks against it
   std::vector<std::uint8_t> member_;  // per body
   std::vector<std::uint8_t> before_;  // per body: member_ when the frame began

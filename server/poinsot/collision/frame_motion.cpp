@@ -22,10 +22,10 @@ constexpr double kThrown = 2;
 // Restarts widen the boxes of strays; from this one on they hold everything.
 constexpr int kLastNarrow = 6;
 constexpr double kEverywhere = 1e9;  // [m]
-// A proof of rest is a direct solve: larger islands of the crowd stay awake.
+// Larger islands are not solved directly, not even to prove that they rest.
 constexpr std::size_t kMostProven = 400;
 // An island that strays more often than this joins the crowd, if it can be stepped so.
-constexpr int kMostAlone = 3;
+constexpr int kMostAlone = 8, kMostAloneIfUsual = 3;
 // No motion that is any needs more; what is left of a frame then ends all the same.
 constexpr int kMostRestarts = 16;
 
@@ -327,7 +327,7 @@ void FrameMotion::gather_strays(double t_end, int attempt) {
     if (island.done || island.crowd) continue;
     for (const Eigen::Index i : island.bodies) excited_[static_cast<std::size_t>(i)] = 1;
     // An island that goes wherever it may is no island: the crowd takes it.
-    if (attempt >= (crowd_.is_usual() ? 1 : kMostAlone))
+    if (attempt >= (crowd_.is_usual() ? kMostAloneIfUsual : kMostAlone))
       for (const Eigen::Index i : island.bodies) crowd_.force(i);
     const int own = islands_.island_of[static_cast<std::size_t>(island.bodies.front())];
     for (const Eigen::Index i : island.strays)
@@ -388,16 +388,17 @@ void FrameMotion::choose_crowd(double t_end) {
   const double duration = t_end - state_.world().time;
   for (std::size_t k = 0; k < excited_.size(); ++k)
     if (islands_.island_of[k] < 0)
-      crowd_.set_member(static_cast<Eigen::Index>(k), crowd_.is_usual());
+      crowd_.set_member(static_cast<Eigen::Index>(k), crowd_.is_everybody());
   for (Island& island : islands_.all()) {
     if (!island.fresh) continue;
     island.fresh = false;
     const bool crowd = crowd_.takes(state_, island, crowd_step_, duration);
-    // Who was looked at as one of the crowd has no boxes for anything else: he leaves it a frame
-    // later.
-    const bool leaves = std::any_of(island.bodies.begin(), island.bodies.end(),
-                                    [&](Eigen::Index i) { return crowd_.had(i); });
-    island.crowd = crowd || (leaves && crowd_.may_step(state_, island));
+    const bool was = std::any_of(island.bodies.begin(), island.bodies.end(),
+                                 [&](Eigen::Index i) { return crowd_.had(i); });
+    // Who was looked at as one of the crowd has no boxes for anything else, and who was not may
+    // touch others that are not in the island: both change a frame later.
+    island.crowd = was ? crowd || crowd_.may_step(state_, island)
+                       : crowd && (crowd_.is_forced(island) || island.bodies.size() > kMostProven);
     for (const Eigen::Index i : island.bodies) crowd_.set_member(i, crowd);
     if (island.crowd) {
       island.result.clear();

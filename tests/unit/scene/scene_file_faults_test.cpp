@@ -58,7 +58,8 @@ std::string wrench(const std::string& keys) {
 }
 
 const std::string kKnown =
-    ", known here: world, presentation, collision, simulation, allow_overlap, bodies, springs, "
+    ", known here: world, profile, presentation, collision, simulation, allow_overlap, bodies, "
+    "springs, "
     "wrenches, pairs";
 
 const std::vector<Malformed> kMalformed = {
