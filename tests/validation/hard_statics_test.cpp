@@ -93,8 +93,8 @@ TEST(HardStatics, FastTowersOfEqualBoxesStandToAMillimetre) {
 }
 
 // D12: n bricks of length 1, each shifted by 1/(2k) over the one below, reach out by half the
-// harmonic number and no more. All shifts are `more` longer, so that none is in neutral equilibrium:
-// that would fall by its rounding.
+// harmonic number and no more. All shifts are `more` longer, so that none is in neutral
+// equilibrium: that would fall by its rounding.
 Scene overhang(int n, double more) {
   Scene scene = test::scene(std::vector<BodyDef>());
   BodyDef table = test::box("table", {-5, 0, -0.5}, {10, 10, 1});

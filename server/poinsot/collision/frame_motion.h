@@ -12,6 +12,9 @@
 
 namespace poinsot {
 
+// An impact may give a body up to twice the speed at which it happens.
+inline constexpr double kThrown = 2;
+
 class FrameMotion {
  public:
   explicit FrameMotion(const Scene& scene);

@@ -55,8 +55,7 @@ TEST(SceneFile, HasTheDefaultsOfTheStructs) {
 
 TEST(SceneFile, AProfileSetsDefaultsWhereverItStands) {
   const Scene scene = read("bodies: []\ncollision: {contact_step: 0.002}\nprofile: fast");
-  EXPECT_EQ(scene.collision.contact_tolerance,
-            collision_defaults(Profile::fast).contact_tolerance);
+  EXPECT_EQ(scene.collision.contact_tolerance, collision_defaults(Profile::fast).contact_tolerance);
   EXPECT_EQ(scene.collision.contact_step, 0.002);
   EXPECT_EQ(read("bodies: []\ncollision: {contact_tolerance: 0.1}\nprofile: fast")
                 .collision.contact_tolerance,
