@@ -161,12 +161,16 @@ TEST(PresentationLayer, CommandsHeldOnArePartOfTheHash) {
 
 TEST(PresentationLayer, ReportCountsDynamicBodies) {
   PresentationLayer layer(falling_boxes());
-  hashes(layer, 60);
+  std::uint32_t contacts = 0;  // the first box lands, and may be asleep in the end
+  for (int frame = 0; frame < 60; ++frame) {
+    hashes(layer, 1);
+    contacts = std::max(contacts, layer.report().contacts);
+  }
   const FrameReport report = layer.report();
   EXPECT_EQ(report.frame, 60u);
   EXPECT_EQ(report.sim_time, 1.0);
   EXPECT_EQ(report.bodies, 2u);
-  EXPECT_GT(report.contacts, 0u);  // the first box has landed
+  EXPECT_GT(contacts, 0u);
   EXPECT_EQ(report.quarantined, 0u);
   EXPECT_EQ(report.flags, FrameFlag::none);
 }
