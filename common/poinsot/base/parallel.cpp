@@ -58,8 +58,8 @@ void Team::run(const Job& job) {
 void Team::help(int thread) {
   std::size_t seen = 0;
   while (true) {
-    for (int spin = 0; spin < kHelperSpins && round_.load(std::memory_order_relaxed) == seen && !stop_;
-         ++spin)
+    for (int spin = 0;
+         spin < kHelperSpins && round_.load(std::memory_order_relaxed) == seen && !stop_; ++spin)
       pause();
     Job job;
     {

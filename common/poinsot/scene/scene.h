@@ -112,13 +112,13 @@ struct CollisionDef {
   double contact_step = 1.0 / 240;  // [s] longest sub-step of a frame
   double contact_tolerance = 1e-7;  // [-] error of positions at contacts that `auto` allows,
                                     // relative to the smaller body's size
-  double contact_margin = 0.02;  // [-] gap below which a point is kept in the manifold, relative
-                                 // to the smaller body's size
-  double push_out_speed = 1.0;   // [m/s] upper bound of the removal of penetration
-  double contact_band = 1e-10;   // [-] gap below which a pair touches, relative likewise
-  int max_impacts = 32;          // located per frame and island; more are left to the sub-steps.
-                                 // A bouncing ball comes to rest in one frame with 24.
-  bool sleeping = true;          // islands in proven equilibrium cost nothing
+  double contact_margin = 0.02;     // [-] gap below which a point is kept in the manifold, relative
+                                    // to the smaller body's size
+  double push_out_speed = 1.0;      // [m/s] upper bound of the removal of penetration
+  double contact_band = 1e-10;      // [-] gap below which a pair touches, relative likewise
+  int max_impacts = 32;             // located per frame and island; more are left to the sub-steps.
+                                    // A bouncing ball comes to rest in one frame with 24.
+  bool sleeping = true;             // islands in proven equilibrium cost nothing
   double sleep_acceleration = 1e-6;  // [m/s²] residual below which an equilibrium is one
   int threads = 1;                   // that islands are spread over; the bits do not depend on it
 

@@ -26,7 +26,7 @@ constexpr double kMaxStepsPerFrame = 1e6;
 // bodies would visibly float.
 constexpr double kMinBand = 1e-13, kMaxBand = 1e-3;
 constexpr double kLeastMass = 1e-30, kMostMass = 1e30;  // [kg] squares and inverses stay finite
-constexpr int kMaxImpacts = 1'000'000;  // of a frame and island
+constexpr int kMaxImpacts = 1'000'000;                  // of a frame and island
 constexpr int kMaxThreads = 256;
 
 bool sane(const Vec3& v) {

@@ -193,7 +193,7 @@ std::size_t Crowd::count_standing(const CollisionState& state, const Island& isl
                     [&](Eigen::Index i) { return level_[static_cast<std::size_t>(i)] != 0; }));
 }
 
-bool Crowd::takes(const CollisionState& state, const Island& island, const CrowdStep& step,
+bool Crowd::takes(const CollisionState& state, const Island& island, std::span<const double> strain,
                   double duration) {
   const ContactSolverKind kind = state.def.contact_solver;
   if (kind == ContactSolverKind::convex_newton || !may_step(state, island)) return false;
@@ -208,7 +208,7 @@ bool Crowd::takes(const CollisionState& state, const Island& island, const Crowd
     const bool slow =
         duration * linear_velocity(state.world(), i).norm() <= kSlow * least_size(state, i);
     rests = rests && slow;
-    if (has(i) && slow && step.strain(i) > kStrained * state.def.contact_tolerance)
+    if (has(i) && slow && strain[k] > kStrained * state.def.contact_tolerance)
       promoted_[k] = kPromotedFrames;
     promoted = promoted || promoted_[k] > 0;
   }

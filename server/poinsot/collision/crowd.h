@@ -65,8 +65,9 @@ class Crowd {
   bool may_step(const CollisionState& state, const Island& island) const;
   // Adds what a continuation depends on.
   void hash_into(Hash64& hash) const;
-  // Whether an island is stepped with the crowd in the frame that begins. `step`: the last one.
-  bool takes(const CollisionState& state, const Island& island, const CrowdStep& step,
+  // Whether an island is stepped with the crowd in the frame that begins. `strain` per body:
+  // of the last step (CrowdStep).
+  bool takes(const CollisionState& state, const Island& island, std::span<const double> strain,
              double duration);
 
  private:

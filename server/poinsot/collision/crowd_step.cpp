@@ -66,7 +66,6 @@ CrowdStep::CrowdStep(const CollisionState& state)
       radius_(state.colliders.size(), 0),
       travel_(state.stamp.size(), 0),
       placed_(state.stamp.size(), 0),
-      strain_(state.stamp.size(), 0),
       local_(state.stamp.size(), -1) {
   for (std::size_t c = 0; c < radius_.size(); ++c) radius_[c] = state.colliders[c].bounding_radius;
 }
@@ -173,8 +172,7 @@ void CrowdStep::measure(CollisionState& state, double h, Team& team) {
     travel_[static_cast<std::size_t>(i)] = crowd_travel(state, i, bodies_[k].omega, h);
   });
   for (const int r : records_) {
-    PairRecord& record = state.pairs[r];
-    state.pairs.make_crowd_contact(record);
+    const PairRecord& record = state.pairs[r];
     place_immovable(state, record.a, h);
     place_immovable(state, record.b, h);
   }
@@ -258,16 +256,16 @@ void CrowdStep::fill(const CollisionState& state, const PairRecord& record, Soft
   m.twist_impulse = scale * contact.twist_impulse;
 }
 
-void CrowdStep::find_strain() {
-  for (const Eigen::Index i : columns_) strain_[static_cast<std::size_t>(i)] = 0;
+void CrowdStep::find_strain(std::span<double> strain) const {
+  for (const Eigen::Index i : columns_) strain[static_cast<std::size_t>(i)] = 0;
   for (const SoftManifold& m : manifolds_) {
     double gap = 0;
     for (int j = 0; j < m.count; ++j) gap = std::min(gap, m.points[j].gap);
-    const double strain = -gap / m.size;
+    const double depth = -gap / m.size;
     for (const int body : {m.a, m.b}) {
       if (static_cast<std::size_t>(body) >= columns_.size()) continue;
-      double& most = strain_[static_cast<std::size_t>(columns_[static_cast<std::size_t>(body)])];
-      most = std::max(most, strain);
+      double& most = strain[static_cast<std::size_t>(columns_[static_cast<std::size_t>(body)])];
+      most = std::max(most, depth);
     }
   }
 }
@@ -325,7 +323,7 @@ void CrowdStep::scatter(CollisionState& state, Result& result, Team& team) {
 }
 
 void CrowdStep::add_forces(const CollisionState& state, const PairRecord& record,
-                           std::vector<ContactForce>& forces) const {
+                           std::vector<ContactForce>& forces) {
   if (record.crowd_contact < 0) return;
   const CrowdContact& contact = state.pairs.crowd_contact(record);
   if (!(contact.h > 0)) return;
@@ -347,7 +345,7 @@ void CrowdStep::add_forces(const CollisionState& state, const PairRecord& record
 }
 
 CrowdStep::Result CrowdStep::advance(CollisionState& state, std::span<Island* const> islands,
-                                     double t_end, Team& team) {
+                                     double t_end, Team& team, std::span<double> strain) {
   Result result;
   const double duration = t_end - state.world().time;
   if (!(duration > 0)) return result;
@@ -368,7 +366,7 @@ CrowdStep::Result CrowdStep::advance(CollisionState& state, std::span<Island* co
     end_ = part + 1 < parts ? state.world().time + (part + 1) * h : t_end;
     measure(state, h, team);
     fill(state, team);
-    if (state.def.contact_solver == ContactSolverKind::automatic) find_strain();
+    if (state.def.contact_solver == ContactSolverKind::automatic) find_strain(strain);
     const SoftOutcome outcome = solver_.advance(bodies_, manifolds_, {}, h, settings, team);
     if (std::isfinite(outcome.force_work) && std::isfinite(outcome.loss)) {
       result.tally.work += outcome.force_work;

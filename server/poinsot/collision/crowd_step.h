@@ -1,6 +1,10 @@
 // One step of the crowd: finds where its pairs touch, hands bodies and contacts to soft_step
 // (../contact/soft_step.h), and takes both back.
 //
+// Islands of the crowd are stepped some hundred bodies at a time, so that what a step needs stays
+// near the processor, and by several threads; a larger island is one step that the whole team works
+// at.
+//
 // A frame is one step, unless something in it moves by more than half its size: then what is near
 // is looked at several times.
 
@@ -19,6 +23,7 @@ namespace poinsot {
 // [-] What soft_step reaches in easy islands, relative to the size.
 inline constexpr double kSoftTolerance = 1e-4;
 
+// One thread's means. Islands stepped at the same time by several of them share no body that moves.
 class CrowdStep {
  public:
   explicit CrowdStep(const CollisionState& state);
@@ -28,14 +33,15 @@ class CrowdStep {
     SoftOutcome outcome;       // sums, and the worst residual
     std::uint32_t bodies = 0;  // stepped
   };
-  // Moves the bodies of these islands from the world's time to t_end.
-  Result advance(CollisionState& state, std::span<Island* const> islands, double t_end, Team& team);
+  // Moves the bodies of these islands, whose pairs have crowd contacts, from the world's time to
+  // t_end. `strain` per body [-]: its deepest penetration at the start, relative to the pair's
+  // size.
+  Result advance(CollisionState& state, std::span<Island* const> islands, double t_end, Team& team,
+                 std::span<double> strain);
 
   // The forces of a pair in the last sub-step.
-  void add_forces(const CollisionState& state, const PairRecord& record,
-                  std::vector<ContactForce>& forces) const;
-  // [-] Deepest penetration of a body at the start of the last step, relative to the pair's size.
-  double strain(Eigen::Index i) const { return strain_[static_cast<std::size_t>(i)]; }
+  static void add_forces(const CollisionState& state, const PairRecord& record,
+                         std::vector<ContactForce>& forces);
 
  private:
   int parts(const CollisionState& state, double duration);
@@ -44,7 +50,7 @@ class CrowdStep {
   void measure(CollisionState& state, const PairRecord& record);
   void fill(CollisionState& state, Team& team);
   void fill(const CollisionState& state, const PairRecord& record, SoftManifold& m) const;
-  void find_strain();
+  void find_strain(std::span<double> strain) const;
   void recall(CollisionState& state, Team& team);
   int local(const CollisionState& state, int column);
   void place_immovable(const CollisionState& state, int i, double h);
@@ -55,7 +61,6 @@ class CrowdStep {
   std::vector<double> radius_;         // [m] per collider, about its origin: close together
   std::vector<double> travel_;         // [m] per body: no point of it moves farther in the step
   std::vector<std::uint64_t> placed_;  // per body that nothing moves: the step it was placed in
-  std::vector<double> strain_;         // per body
   std::uint64_t step_ = 0;
 
   SoftStep solver_;

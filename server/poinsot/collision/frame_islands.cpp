@@ -13,6 +13,8 @@ namespace {
 
 // Bodies that nothing happens to are flown this many at a time: sums do not depend on the threads.
 constexpr std::size_t kFlownTogether = 256;
+// Bodies of the crowd that are stepped together: what they need fits into the cache of a core.
+constexpr std::size_t kBatch = 256;
 // Restarts widen the boxes of strays; from this one on they hold everything.
 constexpr int kLastNarrow = 6;
 constexpr double kEverywhere = 1e9;  // [m]
@@ -130,7 +132,7 @@ void FrameMotion::choose_crowd(double t_end) {
   for (Island& island : islands_.all()) {
     if (!island.fresh) continue;
     island.fresh = false;
-    const bool crowd = crowd_.takes(state_, island, crowd_step_, duration);
+    const bool crowd = crowd_.takes(state_, island, strain_, duration);
     const bool was = std::any_of(island.bodies.begin(), island.bodies.end(),
                                  [&](Eigen::Index i) { return crowd_.had(i); });
     // Who was looked at as one of the crowd has no boxes for anything else, and who was not may
@@ -148,21 +150,46 @@ void FrameMotion::choose_crowd(double t_end) {
   }
 }
 
-void FrameMotion::run_crowd(double t_end, CollisionReport& report, CollisionTimes& times) {
+// Small islands are stepped together, in their order.
+void FrameMotion::gather_batches() {
   crowd_islands_.clear();
-  crowd_result_ = {};
-  for (Island& island : islands_.all())
-    if (island.crowd) crowd_islands_.push_back(&island);
-  if (crowd_islands_.empty()) return;
+  batches_.clear();
+  for (Island& island : islands_.all()) {
+    if (!island.crowd) continue;
+    for (const int r : island.records) state_.pairs.make_crowd_contact(state_.pairs[r]);
+    const std::size_t bodies = island.bodies.size();
+    if (batches_.empty() || batches_.back().bodies + bodies > kBatch)
+      batches_.push_back({crowd_islands_.size(), 0, 0, {}});
+    ++batches_.back().count;
+    batches_.back().bodies += bodies;
+    crowd_islands_.push_back(&island);
+  }
+}
+
+void FrameMotion::run_crowd(double t_end, CollisionReport& report, CollisionTimes& times) {
   const Stopwatch::WallLap lap(times.contact.wall_s);
-  crowd_result_ = crowd_step_.advance(state_, crowd_islands_, t_end, team_);
+  gather_batches();
+  const auto step = [&](Batch& batch, CrowdStep& by, Team& team) {
+    const std::span islands(crowd_islands_.data() + batch.first, batch.count);
+    batch.result = by.advance(state_, islands, t_end, team, strain_);
+  };
+  for (Batch& batch : batches_)
+    if (batch.bodies > kBatch || batches_.size() == 1) step(batch, crowd_steps_.front(), team_);
+  if (batches_.size() > 1)
+    team_.run(batches_.size(), [&](std::size_t k, int thread) {
+      if (batches_[k].bodies <= kBatch)
+        step(batches_[k], crowd_steps_[static_cast<std::size_t>(thread)], alone_);
+    });
   for (Island* island : crowd_islands_) island->done = true;
-  report.contacts += crowd_result_.outcome.pushing;
-  report.max_penetration = std::max(report.max_penetration, crowd_result_.outcome.max_penetration);
-  report.impact_loss += crowd_result_.outcome.loss;
-  report.push_out_energy += crowd_result_.outcome.push_out_energy;
-  report.soft_bodies = crowd_result_.bodies;
-  report.contact_residual = crowd_result_.outcome.residual;
+  for (const Batch& batch : batches_) {
+    const SoftOutcome& outcome = batch.result.outcome;
+    report.contacts += outcome.pushing;
+    report.max_penetration = std::max(report.max_penetration, outcome.max_penetration);
+    report.impact_loss += outcome.loss;
+    report.push_out_energy += outcome.push_out_energy;
+    report.soft_bodies += batch.result.bodies;
+    report.contact_residual = std::max(report.contact_residual, outcome.residual);
+  }
 }
 
 bool FrameMotion::touches_now(const PairRecord& record) const {
@@ -228,7 +255,7 @@ void FrameMotion::fly_the_rest(double t_end, Tally& tally) {
 void FrameMotion::close(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
                         const Tally& tally) {
   Tally all = tally;
-  all.add_apart(crowd_result_.tally);
+  for (const Batch& batch : batches_) all.add_apart(batch.result.tally);
   report.islands = static_cast<std::uint32_t>(islands_.all().size());
   for (Island& island : islands_.all()) {
     const Island::Result& result = island.result;
@@ -259,7 +286,7 @@ void FrameMotion::contact_forces(std::vector<ContactForce>& forces) const {
   for (const PairRecord& record : state_.pairs.records()) {
     if (!record.standing) continue;
     if (record.by_crowd) {
-      crowd_step_.add_forces(state_, record, forces);
+      CrowdStep::add_forces(state_, record, forces);
       continue;
     }
     const PairContact* contact = state_.pairs.find_contact(record);

@@ -23,13 +23,16 @@ FrameMotion::FrameMotion(const Scene& scene)
       broad_phase_(state_.colliders),
       islands_(scene.bodies.size()),
       crowd_(state_),
-      crowd_step_(state_),
+      strain_(scene.bodies.size(), 0),
       sleep_(scene.bodies.size()),
       rules_(scene),
       bounded_(scene.bodies.size(), 0),
       excited_(scene.bodies.size(), 0),
       thrown_(scene.bodies.size(), 0) {
-  for (int k = 0; k < team_.size(); ++k) motions_.emplace_back(state_);
+  for (int k = 0; k < team_.size(); ++k) {
+    motions_.emplace_back(state_);
+    crowd_steps_.emplace_back(state_);
+  }
   tired_.reserve(scene.bodies.size());
   for (Eigen::Index i = 0; i < state_.world().size(); ++i)
     if (!state_.world().moves(i) && !state_.world().is_kinematic(i)) place_resting(i);

@@ -41,6 +41,7 @@ class FrameMotion {
   void gather_strays(double t_end, int attempt);
   void place_frozen();
   void choose_crowd(double t_end);
+  void gather_batches();
   void run_crowd(double t_end, CollisionReport& report, CollisionTimes& times);
   void put_to_sleep();
   bool touches_now(const PairRecord& record) const;
@@ -55,9 +56,15 @@ class FrameMotion {
   BroadPhase broad_phase_;
   Islands islands_;
   Crowd crowd_;
-  CrowdStep crowd_step_;
-  CrowdStep::Result crowd_result_;
+  std::vector<CrowdStep> crowd_steps_;  // per thread
+  std::vector<double> strain_;          // [-] per body, of the crowd's last step
   std::vector<Island*> crowd_islands_;
+  struct Batch {  // of crowd_islands_, stepped together
+    std::size_t first, count, bodies;
+    CrowdStep::Result result;
+  };
+  std::vector<Batch> batches_;
+  Team alone_{1};
   Sleep sleep_;
   PairRules rules_;
   std::vector<std::uint32_t> bounded_;  // stamp of the course that the boxes are of, per body
