@@ -42,23 +42,28 @@ TEST(StoppedReader, DoesNotHoldUpTheWriterNorAnotherReader) {
 
   stopped.signal(SIGSTOP);
   PoseSnapshot frame = sample::poses(1, kBodies);
-  std::chrono::nanoseconds writing{0};
+  int slow = 0;  // writes that took half the blocking time or more
   for (; frame.frame <= kFrames; ++frame.frame) {
     const auto start = std::chrono::steady_clock::now();
     EXPECT_TRUE(poses.write(frame)) << frame.frame;
-    writing += std::chrono::steady_clock::now() - start;
+    slow += std::chrono::steady_clock::now() - start >= 5ms / 2 ? 1 : 0;
     std::this_thread::sleep_for(5ms);
   }
   // A writer that waits does so for its blocking time, 5 ms, in each frame once its history is
-  // full.
-  EXPECT_LT(writing, kFrames * 5ms / 2);
+  // full; one that the machine holds up does so now and then.
+  EXPECT_LT(slow, kFrames / 2);
 
-  for (int index = 1; index <= kFrames; ++index) {
+  // The other misses none, unless the machine holds it up for as long as four frames, the history.
+  int arrived = 0;
+  for (int index = 0; index < kFrames;) {
     const Frame received = parse(running.read_line());
-    ASSERT_EQ(received.index, index);
+    ASSERT_GT(received.index, index);
+    index = received.index;
+    ++arrived;
     EXPECT_EQ(received.bodies, static_cast<int>(kBodies));
     EXPECT_TRUE(received.good);
   }
+  EXPECT_GE(arrived, kFrames * 9 / 10);
   EXPECT_EQ(running.wait(), 0);
 
   // The stopped one goes on where the stream is now.
