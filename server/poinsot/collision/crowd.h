@@ -1,7 +1,7 @@
-// The crowd: bodies whose contacts are stepped by soft_step (crowd_step.h), the islands of all of
-// them at once. This is who is in it, and what they may touch.
+// The crowd: bodies whose contacts are stepped by soft_step (crowd_step.h). This is who is in it, and
+// what they may touch.
 //
-// An island joins the crowd for a frame if the scene asks for it, or if `auto` finds it easy enough
+// An island joins the crowd if the scene asks for it, or if `auto` finds it easy enough
 // for the accuracy that is asked for, or too large for anything else. Pairs of the crowd are not
 // searched for impacts: their points foresee them.
 
