@@ -44,13 +44,15 @@ class ContactWorld {
 struct ContactSetting {
   std::string name;
   std::function<std::unique_ptr<ContactWorld>(const ContactScene&)> make;
+  bool by_wall = false;  // cost is wall time, as for several threads
 };
 
 // The first setting is the engine's default.
 using ContactSettings = std::function<std::vector<ContactSetting>(const ContactCase&)>;
 
-// Arguments: names of cases, or `accuracy`, `piles`, `all`; --limit S: CPU time of a run (default
-// 60), which may take five times as long on a shared machine; --defaults: the first setting only;
+// Arguments: names of cases, or `accuracy`, `piles`, `all`; --wall: costs of piles are wall time;
+// --limit S: CPU time of a run (default 60), which may take five times as long on a shared machine;
+// --defaults: the first setting only;
 // --header: the columns; --list: names of the cases instead. Returns the exit code.
 int measure_contacts(const std::string& engine, const ContactSettings& settings, int argc,
                      char** argv);

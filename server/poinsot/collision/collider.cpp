@@ -172,6 +172,13 @@ Collider::Collider(const Collider& mesh, int triangle_)
       surface(mesh.surface),
       triangle(triangle_) {}
 
+bool has_corners(const Collider& collider) {
+  return std::holds_alternative<Box>(collider.shape) ||
+         std::holds_alternative<Convex>(collider.shape) ||
+         std::holds_alternative<HalfSpace>(collider.shape) ||
+         std::holds_alternative<Mesh>(collider.shape);
+}
+
 Vec3 support(const Collider& collider, const Vec3& d) {
   return std::visit(
       Overloaded{[](const Sphere&) -> Vec3 { return Vec3::Zero(); },

@@ -36,6 +36,9 @@ struct Collider {
   int triangle = -1;                           // of a mesh: which; −1: not one of them
 };
 
+// Whether the points of a shape's contacts stay where they are on it; those of round ones roll.
+bool has_corners(const Collider& collider);
+
 // The point of the core farthest along d (any length), in S [m]. Not for half-spaces.
 Vec3 support(const Collider& collider, const Vec3& d);
 

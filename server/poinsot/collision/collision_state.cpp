@@ -23,6 +23,7 @@ CollisionState::CollisionState(const Scene& scene)
       colliders(make_colliders(scene)),
       arm(scene.bodies.size(), 0),
       has_corners(scene.bodies.size(), 0),
+      least_size(scene.bodies.size(), std::numeric_limits<double>::infinity()),
       pairs(scene.bodies.size()),
       stamp(scene.bodies.size(), 1),
       body_time(scene.bodies.size(), 0),
@@ -36,9 +37,8 @@ CollisionState::CollisionState(const Scene& scene)
   for (const Collider& collider : colliders) {
     const auto k = static_cast<std::size_t>(collider.body);
     ++first_collider[k + 1];
-    if (std::holds_alternative<Box>(collider.shape) ||
-        std::holds_alternative<Convex>(collider.shape))
-      has_corners[k] = 1;
+    if (poinsot::has_corners(collider)) has_corners[k] = 1;
+    least_size[k] = std::min(least_size[k], collider.size);
     arm[k] = std::max(arm[k], collider.in_body.c.norm() + collider.bounding_radius);
   }
   for (std::size_t k = 1; k < first_collider.size(); ++k)

@@ -40,6 +40,7 @@ struct CollisionState {
   std::vector<int> first_collider;        // per body, and the end
   std::vector<double> arm;                // [m] per body: no point of its shapes is farther from c
   std::vector<std::uint8_t> has_corners;  // per body: some shape of it
+  std::vector<double> least_size;         // [m] per body: of its shapes
   PairStore pairs;
 
   // Per body.

@@ -6,12 +6,7 @@
 #include "poinsot/collision/pair_contact.h"
 
 namespace poinsot {
-namespace {
-
-// Of the speed that a sub-step of gravity gives: slower approaches are at rest, and do not bounce.
-constexpr double kRestingSteps = 2.0;
-
-}  // namespace
+namespace {}  // namespace
 
 ContactStep::ContactStep(const CollisionDef& def) : def_(def) {}
 

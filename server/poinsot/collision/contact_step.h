@@ -18,6 +18,9 @@
 
 namespace poinsot {
 
+// Of the speed that a sub-step of gravity gives: slower approaches are at rest, and do not bounce.
+inline constexpr double kRestingSteps = 2;
+
 class ContactStep {
  public:
   struct Books {

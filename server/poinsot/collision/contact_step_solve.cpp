@@ -7,8 +7,6 @@
 namespace poinsot {
 namespace {
 
-// Of the speed that a sub-step of gravity gives: slower approaches are at rest, and do not bounce.
-constexpr double kRestingSteps = 2.0;
 // Slower ones still are left to the standing contact, which stops them within the sub-step.
 constexpr double kImpactSteps = 0.25;
 // Of the speed at which penetration is removed: how well it is met.

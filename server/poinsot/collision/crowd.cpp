@@ -15,7 +15,7 @@ constexpr double kFramesAhead = 4;
 // A larger island is too dear for a direct solver; one that moves, whose contacts come and go,
 // sooner than one that rests, whose forces are known from the frame before; and any where the crowd
 // is accurate enough as a rule.
-constexpr std::size_t kMostMoving = 64, kMostResting = 400;
+constexpr std::size_t kMostMoving = 64;
 // A body on its own is solved directly even if that accuracy is not asked for.
 constexpr std::size_t kFewDirect = 1;
 // Easy islands: of bodies less than kMostRatio times as heavy as one another (steps of it add up in
@@ -27,20 +27,12 @@ constexpr int kMostLevels = 12;
 constexpr double kStrained = 10;
 constexpr double kSlow = 1e-3;
 constexpr int kPromotedFrames = 120;
-// A body that moves farther than this of its size in a frame is left to the impact search.
-constexpr double kFast = 0.5;
 
 // Whether bodies are in the crowd unless something speaks against it.
 bool prefers_crowd(const CollisionDef& def) {
   return def.contact_solver == ContactSolverKind::soft_step ||
          (def.contact_solver == ContactSolverKind::automatic &&
           def.contact_tolerance >= kSoftTolerance);
-}
-
-double least_size(const CollisionState& state, Eigen::Index i) {
-  double size = std::numeric_limits<double>::infinity();
-  for (const Collider& collider : state.colliders_of(i)) size = std::min(size, collider.size);
-  return size;
 }
 
 }  // namespace
@@ -198,21 +190,21 @@ bool Crowd::takes(const CollisionState& state, const Island& island, std::span<c
   const ContactSolverKind kind = state.def.contact_solver;
   if (kind == ContactSolverKind::convex_newton || !may_step(state, island)) return false;
   if (kind == ContactSolverKind::soft_step) return true;
-  if (is_forced(island) || island.bodies.size() > kMostResting) return true;
+  if (is_forced(island) || island.bodies.size() > kMostDirect) return true;
   const std::size_t standing = count_standing(state, island);
   bool promoted = false, rests = true;
   for (const Eigen::Index i : island.bodies) {
     const auto k = static_cast<std::size_t>(i);
     const double way = crowd_travel(state, i, angular_velocity(state.world(), i), duration);
-    if (way > kFast * least_size(state, i) && standing <= kMostMoving) return false;
+    if (way > kLook * state.least_size[k] && standing <= kMostMoving) return false;
     const bool slow =
-        duration * linear_velocity(state.world(), i).norm() <= kSlow * least_size(state, i);
+        duration * linear_velocity(state.world(), i).norm() <= kSlow * state.least_size[k];
     rests = rests && slow;
     if (has(i) && slow && strain[k] > kStrained * state.def.contact_tolerance)
       promoted_[k] = kPromotedFrames;
     promoted = promoted || promoted_[k] > 0;
   }
-  if (standing > (rests && !usual_ ? kMostResting : kMostMoving)) return true;
+  if (standing > (rests && !usual_ ? kMostDirect : kMostMoving)) return true;
   return !promoted && is_easy(state, island);
 }
 

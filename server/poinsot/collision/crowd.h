@@ -1,5 +1,5 @@
-// The crowd: bodies whose contacts are stepped by soft_step (crowd_step.h). This is who is in it, and
-// what they may touch.
+// The crowd: bodies whose contacts are stepped by soft_step (crowd_step.h). This is who is in it,
+// and what they may touch.
 //
 // An island joins the crowd if the scene asks for it, or if `auto` finds it easy enough
 // for the accuracy that is asked for, or too large for anything else. Pairs of the crowd are not
@@ -24,6 +24,9 @@ void run_chunks(Team& team, std::size_t count, const Task& task) {
     for (std::size_t k = chunk * kTogether; k < end; ++k) task(k);
   });
 }
+
+// Larger islands are not solved directly, not even to prove that they rest.
+inline constexpr std::size_t kMostDirect = 400;
 
 // No point of body i, which turns at `omega` [rad/s], moves farther in h [s], contacts aside [m].
 double crowd_travel(const CollisionState& state, Eigen::Index i, const Vec3& omega, double h);

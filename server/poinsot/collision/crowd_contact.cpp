@@ -23,12 +23,6 @@ double shift(const Pose& before, const Pose& now, double arm) {
   return (now.c - before.c).norm() + arm * turn;
 }
 
-bool has_corners(const Collider& collider) {
-  return std::holds_alternative<Box>(collider.shape) ||
-         std::holds_alternative<Convex>(collider.shape) ||
-         std::holds_alternative<HalfSpace>(collider.shape);
-}
-
 // As find_manifold(), without a detour: heaps of balls are nothing else.
 void find_spheres(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
                   double margin, Manifold& manifold) {

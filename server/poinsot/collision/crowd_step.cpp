@@ -9,8 +9,6 @@
 namespace poinsot {
 namespace {
 
-// What is near is looked at anew before a body has moved by this much of its size.
-constexpr double kLook = 0.5;
 constexpr int kMostParts = 64;  // of a frame
 
 // Whether another point of the surface comes under the normal (in S) as the body turns.
@@ -74,12 +72,10 @@ CrowdStep::CrowdStep(const CollisionState& state)
 int CrowdStep::parts(const CollisionState& state, double duration) {
   double most = 1;
   for (const Eigen::Index i : columns_) {
-    double size = std::numeric_limits<double>::infinity();
-    for (const Collider& collider : state.colliders_of(i)) size = std::min(size, collider.size);
     const double way = crowd_travel(
         state, i, bodies_[static_cast<std::size_t>(local_[static_cast<std::size_t>(i)])].omega,
         duration);
-    most = std::max(most, way / (kLook * size));
+    most = std::max(most, way / (kLook * state.least_size[static_cast<std::size_t>(i)]));
   }
   return most < kMostParts ? static_cast<int>(std::ceil(most)) : kMostParts;
 }

@@ -22,6 +22,9 @@ namespace poinsot {
 
 // [-] What soft_step reaches in easy islands, relative to the size.
 inline constexpr double kSoftTolerance = 1e-4;
+// What is near is looked at anew before a body has moved by this much of its size; one that moves
+// farther in a frame is fast.
+inline constexpr double kLook = 0.5;
 
 // One thread's means. Islands stepped at the same time by several of them share no body that moves.
 class CrowdStep {

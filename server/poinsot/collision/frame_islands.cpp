@@ -18,8 +18,6 @@ constexpr std::size_t kBatch = 256;
 // Restarts widen the boxes of strays; from this one on they hold everything.
 constexpr int kLastNarrow = 6;
 constexpr double kEverywhere = 1e9;  // [m]
-// Larger islands are not solved directly, not even to prove that they rest.
-constexpr std::size_t kMostProven = 400;
 // An island that strays more often than this joins the crowd, if it can be stepped so.
 constexpr int kMostAlone = 8, kMostAloneIfUsual = 3;
 // No motion that is any needs more; what is left of a frame then ends all the same.
@@ -138,7 +136,7 @@ void FrameMotion::choose_crowd(double t_end) {
     // Who was looked at as one of the crowd has no boxes for anything else, and who was not may
     // touch others that are not in the island: both change a frame later.
     island.crowd = was ? crowd || crowd_.may_step(state_, island)
-                       : crowd && (crowd_.is_forced(island) || island.bodies.size() > kMostProven);
+                       : crowd && (crowd_.is_forced(island) || island.bodies.size() > kMostDirect);
     for (const Eigen::Index i : island.bodies) crowd_.set_member(i, crowd);
     if (island.crowd) {
       island.result.clear();
@@ -211,7 +209,7 @@ void FrameMotion::put_to_sleep() {
   const std::span<Island> islands = islands_.all();
   tired_.assign(islands.size(), 0);
   for (std::size_t k = 0; k < islands.size(); ++k) {
-    const bool provable = !islands[k].crowd || islands[k].bodies.size() <= kMostProven;
+    const bool provable = !islands[k].crowd || islands[k].bodies.size() <= kMostDirect;
     tired_[k] = provable && sleep_.may_sleep(state_, islands[k]) ? 1 : 0;
     if (tired_[k] != 0 && islands[k].crowd)
       for (const int r : islands[k].records) state_.pairs.make_contact(state_.pairs[r]);

@@ -18,9 +18,6 @@ constexpr double kUsualSteps = 4;
 // Stopping an island whose contacts are stepped costs a solve of all its points: so many of them
 // count as one impact more.
 constexpr double kPointsPerImpact = 16;
-// Of the speed that a sub-step of gravity gives: slower approaches come to rest without stopping
-// the island's clock.
-constexpr double kRestingSteps = 2;
 // A sub-step is cut to no less than this part of itself.
 constexpr double kLeastPart = 1.0 / 256;
 

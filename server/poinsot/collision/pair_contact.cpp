@@ -42,14 +42,6 @@ void recall(PairContact& contact, double size, double h) {
   }
 }
 
-// Whether the points of a shape's contacts stay where they are on it; those of round ones roll.
-bool has_corners(const Collider& collider) {
-  return std::holds_alternative<Box>(collider.shape) ||
-         std::holds_alternative<Convex>(collider.shape) ||
-         std::holds_alternative<HalfSpace>(collider.shape) ||
-         std::holds_alternative<Mesh>(collider.shape);
-}
-
 }  // namespace
 
 // The points of a pair where its bodies are now; those that continue old ones keep what they know.
