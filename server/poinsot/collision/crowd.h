@@ -15,10 +15,15 @@
 
 namespace poinsot {
 
-// Records and bodies that a thread takes at a time.
+// Records and bodies that a thread takes at a time; so few that waking a thread would take longer
+// stay on the caller's.
 template <class Task>
 void run_chunks(Team& team, std::size_t count, const Task& task) {
-  constexpr std::size_t kTogether = 64;
+  constexpr std::size_t kTogether = 64, kFew = 512;
+  if (count <= kFew) {
+    for (std::size_t k = 0; k < count; ++k) task(k);
+    return;
+  }
   team.run((count + kTogether - 1) / kTogether, [&](std::size_t chunk, int) {
     const std::size_t end = std::min(count, (chunk + 1) * kTogether);
     for (std::size_t k = chunk * kTogether; k < end; ++k) task(k);

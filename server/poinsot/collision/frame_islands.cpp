@@ -172,12 +172,11 @@ void FrameMotion::run_crowd(double t_end, CollisionReport& report, CollisionTime
     batch.result = by.advance(state_, islands, t_end, team, strain_);
   };
   for (Batch& batch : batches_)
-    if (batch.bodies > kBatch || batches_.size() == 1) step(batch, crowd_steps_.front(), team_);
-  if (batches_.size() > 1)
-    team_.run(batches_.size(), [&](std::size_t k, int thread) {
-      if (batches_[k].bodies <= kBatch)
-        step(batches_[k], crowd_steps_[static_cast<std::size_t>(thread)], alone_);
-    });
+    if (batch.bodies > kBatch) step(batch, crowd_steps_.front(), team_);
+  team_.run(batches_.size(), [&](std::size_t k, int thread) {
+    if (batches_[k].bodies <= kBatch)
+      step(batches_[k], crowd_steps_[static_cast<std::size_t>(thread)], alone_);
+  });
   for (Island* island : crowd_islands_) island->done = true;
   for (const Batch& batch : batches_) {
     const SoftOutcome& outcome = batch.result.outcome;
