@@ -46,6 +46,11 @@ struct BodyDef {
   Material material;
   DragDef drag;
   std::string where;  // "file:line:col" of its definition, for messages; empty if built in code
+
+  // Bodies come and go in a run. A place that nobody has is absent: no name, no shape, static; its
+  // slot is taken again with the next generation.
+  bool absent = false;
+  std::uint32_t generation = 1;  // of its BodyId; the slot is its place in the scene
 };
 
 // A spring and damper in parallel between a point of body `a` and a point of body `b`, or of W:

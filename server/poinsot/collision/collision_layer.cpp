@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "poinsot/base/error.h"
 #include "poinsot/collision/frame_motion.h"
 
 namespace poinsot {
@@ -117,5 +118,21 @@ EnergyBalance CollisionLayer::energy_balance() {
 void CollisionLayer::hash_into(Hash64& hash) const {
   std::as_const(*frame_).motion.hash_into(hash);
 }
+
+Eigen::Index CollisionLayer::spawn(const BodyDef&) {
+  throw Error("spawn: not yet");
+}
+void CollisionLayer::remove(Eigen::Index) {
+  throw Error("remove: not yet");
+}
+void CollisionLayer::set_state(Eigen::Index, const Pose&, const Velocity&) {
+  throw Error("set_state: not yet");
+}
+void CollisionLayer::kick(Eigen::Index, const Wrench&) {
+  throw Error("kick: not yet");
+}
+void CollisionLayer::set_tethers(std::span<const Tether>) {}
+void CollisionLayer::save(ByteWriter&) const {}
+void CollisionLayer::restore(ByteReader&) {}
 
 }  // namespace poinsot

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 
+#include "poinsot/base/archive.h"
 #include "poinsot/base/hash.h"
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/collision/impact_event.h"
@@ -96,6 +97,29 @@ class CollisionLayer {
   EnergyBalance energy_balance();
   double energy() const;
   double energy_error() { return energy_balance().error; }
+
+  // Changes from outside, between frames. Each wakes what it touches and leaves the courses of all
+  // other bodies alone, to the bit; the energy balance starts afresh.
+
+  // Adds a body that is valid in itself and with the others (its name and generation included), in
+  // the first absent column or a new one.
+  Eigen::Index spawn(const BodyDef& body);
+  // Its column becomes absent: no shape, no mass, found by nobody. Springs to it go with it.
+  void remove(Eigen::Index i);
+  // Pose of B in W and velocity of the centre of mass of a dynamic or kinematic body; of a static
+  // one the pose.
+  void set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity);
+  // Changes P and L of a dynamic body at once: impulse [N·s] and angular impulse [N·m·s] about the
+  // centre of mass, in W.
+  void kick(Eigen::Index i, const Wrench& impulse);
+  // All tethers from now on.
+  void set_tethers(std::span<const Tether> tethers);
+
+  // All that a continuation depends on, for a layer of the same scene, bodies spawned and absent
+  // included: it then goes on bit for bit. restore() throws Error if the bytes are not such a
+  // state; the layer is then to be thrown away.
+  void save(ByteWriter& out) const;
+  void restore(ByteReader& in);
 
   // Adds what a continuation depends on besides the world.
   void hash_into(Hash64& hash) const;

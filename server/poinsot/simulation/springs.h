@@ -43,6 +43,16 @@ SpringForce spring_force(const SpringLink& spring, const Vec3& x_a, const Vec3& 
 // ½ k (d − rest)² [J].
 double spring_energy(const SpringLink& spring, const Vec3& x_a, const Vec3& x_b);
 
+// A spring of no length, with damping, from a body-fixed point to a point that stands still in W:
+// what a client drags a body with. F = k (target − x) − d ẋ [N] at the point.
+struct Tether {
+  Eigen::Index column;
+  Vec3 p_B;          // [m] from the centre of mass, in B
+  Vec3 target;       // [m] in W
+  double stiffness;  // [N/m]
+  double damping;    // [N·s/m]
+};
+
 // What drag exerts at velocity v [m/s] in W [N].
 inline Vec3 drag_force(const DragDef& drag, const Vec3& v) {
   const double quadratic = drag.quadratic > 0 ? drag.quadratic * v.norm() : 0;
