@@ -47,33 +47,52 @@ double crowd_travel(const CollisionState& state, Eigen::Index i, const Vec3& ome
          (linear_velocity(world, i).norm() + state.arm[k] * omega.norm() + 0.5 * h * acceleration);
 }
 
-Crowd::Crowd(const CollisionState& state)
-    : member_(state.stamp.size(), 0),
-      may_step_(state.stamp.size(), 0),
-      fits_(state.stamp.size(), 0),
-      near_(state.colliders.size()),
-      level_(state.stamp.size(), 0),
-      forced_(state.stamp.size(), 0),
-      promoted_(state.stamp.size(), 0) {
+Crowd::Crowd(const CollisionState& state) : usual_(prefers_crowd(state.def)) {
+  for (Eigen::Index i = 0; i < state.world().size(); ++i) set_body(state, i);
+  fit_to_shapes(state);
+}
+
+void Crowd::set_body(const CollisionState& state, Eigen::Index i) {
   const World& world = state.world();
-  for (std::size_t k = 0; k < may_step_.size(); ++k) {
-    const bool lone = world.systems.empty() || world.system_of[k] == World::kLone;
-    const bool drags =
-        !world.drag.empty() &&
-        (world.drag[k].linear > 0 || world.drag[k].quadratic > 0 || world.drag[k].angular > 0);
-    may_step_[k] = world.moves(static_cast<Eigen::Index>(k)) && lone && !drags ? 1 : 0;
+  const auto k = static_cast<std::size_t>(i);
+  if (k == member_.size()) {
+    member_.push_back(0);
+    may_step_.push_back(0);
+    fits_.push_back(0);
+    level_.push_back(0);
+    forced_.push_back(0);
+    promoted_.push_back(0);
   }
+  const bool lone = world.systems.empty() || world.system_of[k] == World::kLone;
+  const bool drags =
+      !world.drag.empty() &&
+      (world.drag[k].linear > 0 || world.drag[k].quadratic > 0 || world.drag[k].angular > 0);
+  may_step_count_ -= may_step_[k];
+  may_step_[k] = world.moves(i) && lone && !drags ? 1 : 0;
+  may_step_count_ += may_step_[k];
+  forced_[k] = 0;
+  promoted_[k] = 0;
+  choose_everybody(state);
+  set_member(i, everybody_);
+}
+
+void Crowd::choose_everybody(const CollisionState& state) {
+  const bool before = everybody_;
+  everybody_ = state.def.contact_solver == ContactSolverKind::soft_step ||
+               (usual_ && may_step_count_ > kMostMoving);
+  if (everybody_ && !before) member_ = may_step_;
+}
+
+void Crowd::fit_to_shapes(const CollisionState& state) {
+  near_.resize(state.colliders.size());
+  kind_.clear();
+  has_mesh_ = false;
   for (const Collider& collider : state.colliders) {
     const bool plane = std::holds_alternative<HalfSpace>(collider.shape);
     const bool mesh = std::holds_alternative<Mesh>(collider.shape);
     kind_.push_back(plane ? Kind::plane : mesh ? Kind::mesh : Kind::solid);
     has_mesh_ = has_mesh_ || mesh;
   }
-  usual_ = prefers_crowd(state.def);
-  const auto moving = static_cast<std::size_t>(std::count(may_step_.begin(), may_step_.end(), 1));
-  everybody_ =
-      state.def.contact_solver == ContactSolverKind::soft_step || (usual_ && moving > kMostMoving);
-  if (everybody_) member_ = may_step_;
 }
 
 void Crowd::next_frame() {

@@ -40,6 +40,10 @@ class Crowd {
  public:
   explicit Crowd(const CollisionState& state);
 
+  // Body i came, went, or begins anew; the shapes of bodies are others.
+  void set_body(const CollisionState& state, Eigen::Index i);
+  void fit_to_shapes(const CollisionState& state);
+
   // Whether a body was in the crowd in the last frame, or is likely to be: its pairs are not
   // searched before islands are parted.
   bool has(Eigen::Index i) const { return member_[static_cast<std::size_t>(i)] != 0; }
@@ -79,6 +83,7 @@ class Crowd {
              double duration);
 
  private:
+  void choose_everybody(const CollisionState& state);
   bool look(const CollisionState& state, Eigen::Index i, double h);
   bool is_near(const CollisionState& state, const PairRecord& record) const;
   std::size_t count_standing(const CollisionState& state, const Island& island);
@@ -86,6 +91,7 @@ class Crowd {
   bool is_shallow(const CollisionState& state, const Island& island);
 
   bool everybody_ = false;
+  std::size_t may_step_count_ = 0;
   bool usual_ = false;                // bodies are in the crowd unless something speaks against it
   std::vector<std::uint8_t> member_;  // per body
   std::vector<std::uint8_t> before_;  // per body: member_ when the frame began

@@ -72,6 +72,8 @@ class SimulationLayer {
   // and freezes them there. Callers that changed the state call it before they ask anything.
   void freeze_unsound(std::span<const Eigen::Index> bodies, Tally& tally);
 
+  // The flight that courses of body i look at, wherever it is now.
+  const Flight& flight(Eigen::Index i) const { return flights_[static_cast<std::size_t>(i)]; }
   // The course of a body from its present state, which it has at `from`, on. Valid until its state,
   // its wrenches or `worker` are used for something else; a flight's lasts as long as the flight.
   Course course(Eigen::Index i, double from, double to, bool in_contact, SimulationWorker& worker);
@@ -87,6 +89,14 @@ class SimulationLayer {
   // The body is left alone from now on: nothing moves it.
   void rest(Eigen::Index i) { methods_[static_cast<std::size_t>(i)] = Method::none; }
   bool flies_free() const { return integration_.kind() == IntegratorKind::exact; }
+
+  // Changes from outside, between frames. What a body did before leaves no trace in its column.
+  Eigen::Index add(const BodyDef& body);
+  void remove(Eigen::Index i);
+  void set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity);
+  // Changes the momenta of a dynamic body by an impulse [N·s, N·m·s] about c, in W; what its
+  // kinetic energy changes by is work.
+  void kick(Eigen::Index i, const Wrench& impulse);
 
   World& world() { return world_; }
   const World& world() const { return world_; }
@@ -137,6 +147,7 @@ class SimulationLayer {
     double mismatch = 0;
   };
 
+  void begin_anew(Eigen::Index i);
   bool is_pushed(Eigen::Index i) const;
   bool in_system(Eigen::Index i) const;
   Course kinematic_course(Eigen::Index i, double to) const;
