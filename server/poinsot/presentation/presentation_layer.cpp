@@ -65,6 +65,7 @@ void PresentationLayer::capture() {
                            linear_velocity(world(), i), angular_velocity(world(), i)};
   }
   snapshot_.epoch = epoch_;
+  snapshot_.total = static_cast<std::uint32_t>(columns_.size());
   snapshot_.frame = frame_;
   snapshot_.sim_time_ns = std::llround(static_cast<double>(frame_) * 1e9 / frame_rate());
   snapshot_.state_hash = state_hash(frame_, collision_, held_, digests_);
@@ -123,6 +124,45 @@ void PresentationLayer::capture_impacts() {
          .point = event.point,
          .normal = event.normal,
          .impulse = event.impulse});
+}
+
+// Not yet behind their doors.
+Reply PresentationLayer::obey(const Order& order) {
+  Reply reply;
+  reply.client = order.control.client;
+  reply.seq = order.control.seq;
+  reply.epoch = epoch_;
+  if (order.control.action == ControlAction::reset) {
+    reset();
+    reply.epoch = epoch_;
+  } else {
+    reply.code = ResultCode::feature_unsupported;
+  }
+  reply.first_frame = reply.last_frame = frame_;
+  reply.state_hash = snapshot_.state_hash;
+  return reply;
+}
+std::shared_ptr<const Checkpoint> PresentationLayer::make_checkpoint(std::string) const {
+  return std::make_shared<Checkpoint>();
+}
+void PresentationLayer::restore(const Checkpoint&) {}
+std::size_t PresentationLayer::checkpoints() const {
+  return 0;
+}
+std::uint32_t PresentationLayer::scene_bodies() const {
+  return static_cast<std::uint32_t>(scene_.bodies.size());
+}
+void PresentationLayer::contacts(ContactSnapshot& contacts) const {
+  contacts.contacts.clear();
+}
+void PresentationLayer::held(HeldList& list) const {
+  list.items.clear();
+}
+std::uint64_t PresentationLayer::held_revision() const {
+  return 0;
+}
+std::uint32_t PresentationLayer::held_by(std::uint64_t) const {
+  return 0;
 }
 
 LayerTimes PresentationLayer::times() const {

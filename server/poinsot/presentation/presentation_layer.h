@@ -4,14 +4,20 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/collision/collision_layer.h"
+#include "poinsot/presentation/checkpoint.h"
 #include "poinsot/presentation/held_wrenches.h"
+#include "poinsot/presentation/order.h"
 #include "poinsot/presentation/state_hash.h"
+#include "poinsot/protocol/contact_snapshot.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/held_list.h"
 #include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 
@@ -25,6 +31,19 @@ class PresentationLayer {
   // Takes commands for the frames to come, paused or not. Appends one reply per command, in order.
   // The commands are sorted by (client, seq).
   void accept(std::span<const WrenchCommand> commands, std::vector<Reply>& replies);
+
+  // Does at once what the physics has to know of: reset, spawn, remove, set_state, save (to
+  // memory), restore, release. Other actions are the loop's. Between frames, in the order (client,
+  // seq) among the wrenches of the same turn.
+  Reply obey(const Order& order);
+  // What was last saved by save.
+  std::shared_ptr<const Checkpoint> last_saved() const { return last_saved_; }
+  // All that a continuation needs, now. Named by frame and epoch.
+  std::shared_ptr<const Checkpoint> make_checkpoint(std::string name) const;
+  // Goes on from there, in the next epoch. Throws Error if the bytes are damaged; the run is then
+  // as it was.
+  void restore(const Checkpoint& checkpoint);
+  std::size_t checkpoints() const;  // in memory
 
   // Advances to the end of the next frame.
   void advance_frame();
@@ -50,6 +69,16 @@ class PresentationLayer {
   std::span<const ImpactNotice> impacts() const { return impacts_; }
   LayerTimes times() const;  // since construction, over all epochs
 
+  // Counts what came into the scene and left it, from 1; bodies of all kinds that are there.
+  std::uint32_t scene_revision() const { return scene_revision_; }
+  std::uint32_t scene_bodies() const;
+  // Computed when asked for; session and sequence are left to whoever sends them.
+  void contacts(ContactSnapshot& contacts) const;
+  void held(HeldList& list) const;
+  std::uint64_t held_revision() const;  // another one when held() would tell something else
+  std::size_t held_count() const { return held_.size(); }
+  std::uint32_t held_by(std::uint64_t client) const;
+
  private:
   void hold_scene_wrenches();
   void capture();
@@ -70,6 +99,8 @@ class PresentationLayer {
   // 0: it is awake.
   std::vector<std::uint32_t> captured_asleep_;
   BodyDigests digests_;
+  std::uint32_t scene_revision_ = 1;
+  std::shared_ptr<const Checkpoint> last_saved_;
   LayerTimes times_;  // own time, and the inner layers' before the last reset
 };
 
