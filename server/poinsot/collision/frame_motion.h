@@ -26,6 +26,7 @@ class FrameMotion {
   void hash_into(Hash64& hash) const;
 
   void touch() { touched_ = true; }
+  void set_tethers(std::span<const Tether> tethers);
   CollisionState& state() { return state_; }
   const CollisionState& state() const { return state_; }
 
