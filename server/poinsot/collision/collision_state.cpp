@@ -89,9 +89,9 @@ Eigen::Index CollisionState::add(const BodyDef& body) {
   return i;
 }
 
-void CollisionState::remove(Eigen::Index i) {
+bool CollisionState::remove(Eigen::Index i) {
   const auto k = static_cast<std::size_t>(i);
-  simulation.remove(i);
+  const bool sprung = simulation.remove(i);
   const int first = first_collider[k], count = first_collider[k + 1] - first;
   pairs.erase_colliders(first, count);
   colliders.erase(colliders.begin() + first, colliders.begin() + first + count);
@@ -99,6 +99,7 @@ void CollisionState::remove(Eigen::Index i) {
   for (std::size_t j = k + 1; j < first_collider.size(); ++j) first_collider[j] -= count;
   measure_shapes(i);
   begin_anew(i);
+  return sprung;
 }
 
 void CollisionState::set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity) {

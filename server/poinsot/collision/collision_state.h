@@ -22,9 +22,9 @@ struct CollisionState {
   std::span<const Collider> colliders_of(Eigen::Index i) const;
 
   // Changes from outside. A body that comes has no pairs and no boxes yet; from one that goes the
-  // records of its pairs are dropped.
+  // records of its pairs are dropped; with springs, as SimulationLayer::remove() says.
   Eigen::Index add(const BodyDef& body);
-  void remove(Eigen::Index i);
+  bool remove(Eigen::Index i);
   void set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity);
 
   // The body's course is another one from now on: what was found out about its pairs is void.

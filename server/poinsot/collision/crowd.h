@@ -48,6 +48,8 @@ class Crowd {
   // searched before islands are parted.
   bool has(Eigen::Index i) const { return member_[static_cast<std::size_t>(i)] != 0; }
   void set_member(Eigen::Index i, bool member);
+  // Something else acts on body i from now on, not only held wrenches.
+  void look_at_forces(const World& world, Eigen::Index i);
 
   // What the shapes of its bodies may touch before `h` [s] have passed …
   void look(const CollisionState& state, double h, Team& team);
@@ -83,7 +85,6 @@ class Crowd {
              double duration);
 
  private:
-  void choose_everybody(const CollisionState& state);
   bool look(const CollisionState& state, Eigen::Index i, double h);
   bool is_near(const CollisionState& state, const PairRecord& record) const;
   std::size_t count_standing(const CollisionState& state, const Island& island);
@@ -91,12 +92,15 @@ class Crowd {
   bool is_shallow(const CollisionState& state, const Island& island);
 
   bool everybody_ = false;
-  std::size_t may_step_count_ = 0;
+  bool always_ = false;               // whatever there is
   bool usual_ = false;                // bodies are in the crowd unless something speaks against it
   std::vector<std::uint8_t> member_;  // per body
   std::vector<std::uint8_t> before_;  // per body: member_ when the frame began
   std::vector<std::uint8_t> may_step_;  // per body: nothing acts on it that soft_step does not know
-  std::vector<std::uint8_t> fits_;      // per body
+  std::vector<std::uint8_t>
+      counted_;                     // per body: the same, but for tethers and whether it is frozen
+  std::size_t count_ = 0;           // of them
+  std::vector<std::uint8_t> fits_;  // per body
   enum class Kind : std::uint8_t { solid, plane, mesh };
   std::vector<Kind> kind_;  // per collider: close together
   bool has_mesh_ = false;

@@ -26,7 +26,11 @@ Eigen::Index FrameMotion::spawn(const BodyDef& body) {
 
 void FrameMotion::remove(Eigen::Index i) {
   wake_around(i);
-  state_.remove(i);
+  if (state_.remove(i)) {
+    const World& world = state_.world();
+    for (IslandMotion& motion : motions_) motion.worker() = SimulationWorker(world);
+    for (Eigen::Index j = 0; j < world.size(); ++j) crowd_.look_at_forces(world, j);
+  }
   rules_.remove(i);
   shapes_changed_ = true;
   begin_anew(i);

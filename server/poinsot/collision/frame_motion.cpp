@@ -38,6 +38,19 @@ FrameMotion::FrameMotion(const Scene& scene)
     if (!state_.world().moves(i) && !state_.world().is_kinematic(i)) place_resting(i);
 }
 
+// Courses of tethered bodies begin afresh in every frame, as those of all driven ones do.
+void FrameMotion::set_tethers(std::span<const Tether> tethers) {
+  const World& world = state_.world();
+  const TetherChange change = state_.simulation.set_tethers(tethers);
+  if (change != TetherChange::joined) return;
+  for (IslandMotion& motion : motions_) motion.worker().prepare(world);
+  for (Eigen::Index i = 0; i < world.size(); ++i) crowd_.look_at_forces(world, i);
+  for (const Tether& tether : world.tethers)
+    if (state_.asleep[static_cast<std::size_t>(tether.column)] != 0)
+      sleep_.wake(state_, tether.column);
+  rests_ = false;
+}
+
 void FrameMotion::advance_to(double t_end, CollisionReport& report,
                              std::vector<ImpactEvent>& impacts, CollisionTimes& times) {
   impacts.clear();

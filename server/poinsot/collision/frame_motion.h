@@ -32,6 +32,7 @@ class FrameMotion {
   void kick(Eigen::Index i, const Wrench& impulse);
 
   void touch() { touched_ = true; }
+  void set_tethers(std::span<const Tether> tethers);
   CollisionState& state() { return state_; }
   const CollisionState& state() const { return state_; }
 

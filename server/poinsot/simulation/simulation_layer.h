@@ -18,15 +18,16 @@
 #include "poinsot/base/hash.h"
 #include "poinsot/simulation/course.h"
 #include "poinsot/simulation/integration.h"
+#include "poinsot/simulation/tethers.h"
 
 namespace poinsot {
 
 // What an advance of some bodies adds to the books. Sums are formed in the order of the sets, not
 // of the threads.
 struct Tally {
-  double work = 0;                // [J] of held and contact wrenches, drag and damping
-  LocalError error;               // sum over the advances of the largest of all bodies
-  double mismatch = 0;            // [kg·m²/s] the same of |ΔL − ∫τ|
+  double work = 0;      // [J] of held and contact wrenches, drag and damping, and on tethers
+  LocalError error;     // sum over the advances of the largest of all bodies
+  double mismatch = 0;  // [kg·m²/s] the same of |ΔL − ∫τ|
   double largest_momentum = 0;    // [kg·m²/s]
   std::uint32_t quarantined = 0;  // bodies frozen
   bool stiff = false;
@@ -39,9 +40,12 @@ struct Tally {
 struct SimulationWorker {
   explicit SimulationWorker(const World& world);
 
+  // Makes room for the springs of all systems.
+  void prepare(const World& world);
+
   TaylorSeries taylor;
   Workspace lone;
-  std::vector<Workspace> systems;  // to look ahead with
+  std::vector<Workspace> systems;  // of the scene's, to look ahead with
 };
 
 class SimulationLayer {
@@ -92,11 +96,17 @@ class SimulationLayer {
 
   // Changes from outside, between frames. What a body did before leaves no trace in its column.
   Eigen::Index add(const BodyDef& body);
-  void remove(Eigen::Index i);
+  // Springs to it go with it: if it says so, workers of others are to be made anew.
+  bool remove(Eigen::Index i);
   void set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity);
   // Changes the momenta of a dynamic body by an impulse [N·s, N·m·s] about c, in W; what its
   // kinetic energy changes by is work.
   void kick(Eigen::Index i, const Wrench& impulse);
+  // All tethers from now on, between frames; those of columns that do not move are ignored. The
+  // change of their energy counts as work; what a system knows of its steps is forgotten if its
+  // tethers changed in more than their targets. Throws Error if one is not finite or pushes, before
+  // anything changed. Afterwards workers of others are to be prepared if it says `joined`.
+  TetherChange set_tethers(std::span<const Tether> tethers);
 
   World& world() { return world_; }
   const World& world() const { return world_; }
@@ -148,10 +158,13 @@ class SimulationLayer {
   };
 
   void begin_anew(Eigen::Index i);
+  void drop_springs(Eigen::Index i);
   bool is_pushed(Eigen::Index i) const;
   bool in_system(Eigen::Index i) const;
+  bool in_scene_system(Eigen::Index i) const;
   Course kinematic_course(Eigen::Index i, double to) const;
-  Group system_group(int s, Workspace& work, StepMemory& memory);
+  Group system_group(int s, std::vector<Workspace>& of_scene, Workspace& lone, StepMemory& memory);
+  StepMemory& system_memory(int s);
   void load(const Group& group, bool in_contact) const;
   void fly(Eigen::Index i, double from, double to, Tally& tally);
   void integrate(const Group& group, double duration, Advance& advance, Tally& tally);
@@ -166,11 +179,12 @@ class SimulationLayer {
   std::vector<Flight> flights_;         // of bodies whose method is flight
   std::vector<RotationBound> turning_;  // of those flights, once asked for
   std::vector<std::uint8_t> turning_known_;
-  std::vector<StepMemory> memories_;  // per body, for the embedded pairs
-  std::vector<StepMemory> system_memories_;
-  std::vector<Workspace> systems_;
-  std::vector<Eigen::Index> all_;      // columns
-  std::vector<SimulationWorker> own_;  // of advance_to
+  std::vector<StepMemory> memories_;         // per body, for the embedded pairs
+  std::vector<StepMemory> system_memories_;  // of the scene's systems …
+  std::vector<Workspace> systems_;           // … as these
+  std::vector<Eigen::Index> relaid_;         // columns whose tethers changed, while they do
+  std::vector<Eigen::Index> all_;            // columns
+  std::vector<SimulationWorker> own_;        // of advance_to
 
   Tally total_;
   LocalError frame_error_;

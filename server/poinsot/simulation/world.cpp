@@ -15,9 +15,16 @@ World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
     if (!names[k].empty()) columns_by_name.push_back(static_cast<Eigen::Index>(k));
   std::ranges::stable_sort(columns_by_name, {}, [this](Eigen::Index i) { return name_of(i); });
   systems = make_systems(scene, *this);
+  number_systems();
+}
+
+void World::number_systems() {
+  scene_systems = systems.size();
+  system_of.clear();
+  place_of.clear();
   if (systems.empty()) return;
-  system_of.assign(n, kLone);
-  place_of.assign(n, 0);
+  system_of.assign(ids.size(), kLone);
+  place_of.assign(ids.size(), 0);
   for (std::size_t s = 0; s < systems.size(); ++s)
     for (std::size_t j = 0; j < systems[s].columns.size(); ++j) {
       const auto k = static_cast<std::size_t>(systems[s].columns[j]);
@@ -102,6 +109,7 @@ void World::set_state(Eigen::Index i, const Pose& pose, const Velocity& v) {
   const Mat3 R = pose.q.toRotationMatrix();
   angular_momentum(y, i) = R * (J_B[k] * (R.transpose() * v.angular));
   if (is_kinematic(i)) kinematic[k] = {v, {position(y, i), orientation(y, i)}, time};
+  if (motion[k] == Motion::fixed) move_anchors(*this, i);
 }
 
 std::optional<Eigen::Index> World::find(BodyId id) const {

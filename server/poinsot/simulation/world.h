@@ -62,6 +62,9 @@ struct World {
   // does not move the pose alone. A frozen one moves again.
   void set_state(Eigen::Index i, const Pose& pose, const Velocity& v);
 
+  // Sets who is in which of the systems, all of which are the scene's.
+  void number_systems();
+
   // Sets a body at rest for good at its present pose, and makes it a moving one again.
   void freeze(Eigen::Index i);
   void thaw(Eigen::Index i);
@@ -83,10 +86,18 @@ struct World {
 
   std::vector<PrincipalAxes> principal_axes;
   std::vector<DragDef> drag;        // empty: no body had any yet
-  std::vector<BodySystem> systems;  // bodies with springs; empty: the scene has none
+  std::vector<BodySystem> systems;  // bodies with springs or tethers; empty: there are none
   std::vector<int> system_of;       // index into systems, or kLone; empty as systems
   std::vector<int> place_of;        // index into that system's columns; empty as systems
   static constexpr int kLone = -1;
+  std::size_t scene_systems = 0;  // the first of `systems`; the others are a tethered body each
+
+  // Set by set_tethers() (tethers.h).
+  std::vector<Tether> tethers;
+  struct TetherPlace {
+    int system, spring;  // indices into systems, and into that system's springs
+  };
+  std::vector<TetherPlace> tether_places;  // as tethers
 
   // Per column; empty: there was no kinematic body yet.
   struct Kinematic {
@@ -112,10 +123,10 @@ Vec3 linear_velocity(const World& world, Eigen::Index i);   // [m/s] of the cent
 Vec3 angular_velocity(const World& world, Eigen::Index i);  // [rad/s] in W
 Pose body_pose(const World& world, Eigen::Index i);         // of B in W
 
-// What acts on body i now, about c, in W: gravity, held wrench, drag and springs [N, N·m].
+// What acts on body i now, about c, in W: gravity, held wrench, drag, springs and tethers [N, N·m].
 Wrench acting_wrench(const World& world, Eigen::Index i);
 
-// Elastic energy of the springs, of one system or of all [J].
+// Elastic energy of springs and tethers, of one system or of all [J].
 double spring_energy(const World& world, const BodySystem& system);
 double spring_energy(const World& world);
 
