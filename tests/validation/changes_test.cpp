@@ -1,6 +1,8 @@
 // The world is changed between frames: bodies are moved and kicked. What a change does not concern
 // goes on to the bit.
 
+#include "support/changes.h"
+
 #include <cmath>
 #include <utility>
 
@@ -13,42 +15,8 @@
 namespace poinsot {
 namespace {
 
-const World& world_of(const CollisionLayer& layer) {
-  return layer.world();
-}
-
-Eigen::Index column(const CollisionLayer& layer, const std::string& name) {
-  return *world_of(layer).find(name);
-}
-
-Course::Column state_of(const CollisionLayer& layer, const std::string& name) {
-  return world_of(layer).y.col(column(layer, name));
-}
-
-std::uint64_t fingerprint(const CollisionLayer& layer) {
-  Hash64 hash;
-  hash.add({layer.world().y.data(), static_cast<std::size_t>(layer.world().y.size())});
-  layer.hash_into(hash);
-  return hash.value();
-}
-
-BodyDef brick(const std::string& name, const Vec3& position) {
-  return test::body(name, Box{{1, 1, 1}}, position);
-}
-
-// Boxes on one another on a half-space.
-std::vector<BodyDef> tower(int boxes, const Vec3& at = Vec3::Zero(),
-                           const std::string& of = "box") {
-  std::vector<BodyDef> bodies;
-  for (int k = 0; k < boxes; ++k)
-    bodies.push_back(brick(of + std::to_string(k), at + Vec3(0, 0, 0.5 + k)));
-  return bodies;
-}
-
-Scene on_ground(std::vector<BodyDef> bodies) {
-  bodies.insert(bodies.begin(), test::ground());
-  return test::scene(std::move(bodies));
-}
+using test::brick, test::column, test::fingerprint, test::on_ground, test::state_of, test::tower,
+    test::world_of;
 
 class Changes : public testing::TestWithParam<Profile> {
  protected:
@@ -191,9 +159,7 @@ TEST_P(Changes, SleepersWakeWhenTheirSupportIsTakenFromUnderThem) {
 }
 
 TEST_P(Changes, WhatRestsOnAStaticBodyFallsWhenThatIsMovedAway) {
-  BodyDef table = brick("table", {0, 0, 0.5});
-  table.is_static = true;
-  table.mass_properties = {};
+  const BodyDef table = test::made_static(brick("table", {0, 0, 0.5}));
   CollisionLayer sut = layer(on_ground({table, brick("box", {0, 0, 1.5})}));
   test::run_until(sut, 2);
   ASSERT_EQ(sut.report().asleep, 1u);
@@ -206,9 +172,7 @@ TEST_P(Changes, WhatRestsOnAStaticBodyFallsWhenThatIsMovedAway) {
 
 // Pushed out at bounded speed, as at time 0.
 TEST_P(Changes, AStaticBodyThatIsMovedIntoASleeperWakesItAndPushesItOut) {
-  BodyDef table = brick("table", {9, 0, 0.5});
-  table.is_static = true;
-  table.mass_properties = {};
+  const BodyDef table = test::made_static(brick("table", {9, 0, 0.5}));
   CollisionLayer sut = layer(on_ground({table, brick("box", {0, 0, 0.5})}));
   test::run_until(sut, 2);
   ASSERT_EQ(sut.report().asleep, 1u);
@@ -239,9 +203,7 @@ TEST_P(Changes, ABodyThatIsPutIntoASleepingPileWakesItAndIsPushedOut) {
 }
 
 TEST_P(Changes, AKinematicBodyGoesOnEvenlyFromWhereItIsPut) {
-  BodyDef belt = brick("belt", {0, 0, 10});
-  belt.is_kinematic = true;
-  belt.mass_properties = {};
+  BodyDef belt = test::made_kinematic(brick("belt", {0, 0, 10}));
   belt.linear_velocity = {1, 0, 0};
   CollisionLayer sut = layer(test::scene({belt}));
   test::run_until(sut, 1);
@@ -256,9 +218,7 @@ TEST_P(Changes, AKinematicBodyGoesOnEvenlyFromWhereItIsPut) {
 }
 
 TEST_P(Changes, ABoxIsCarriedByAKinematicBodyThatIsPutUnderIt) {
-  BodyDef belt = brick("belt", {50, 0, 0.5});
-  belt.is_kinematic = true;
-  belt.mass_properties = {};
+  const BodyDef belt = test::made_kinematic(brick("belt", {50, 0, 0.5}));
   CollisionLayer sut = layer(on_ground({belt, brick("box", {0, 0, 1.5})}));
   sut.set_state(column(sut, "belt"), {{0, 0, 0.5}, Quat::Identity()}, {{0.5, 0, 0}, Vec3::Zero()});
   test::run_until(sut, 1);
@@ -280,20 +240,8 @@ TEST_P(Changes, AFrozenBodyMovesAgainOnceItsStateIsSet) {
 
 // The courses of others ---------------------------------------------------------------------------
 
-// Sleepers, stacks that settle, a flight, each far from the others.
-Scene several(int threads, Profile profile) {
-  std::vector<BodyDef> bodies = tower(3);
-  for (BodyDef& body : tower(4, {20, 0, 0.2}, "falling")) bodies.push_back(body);
-  bodies.push_back(test::box("flying", {0, 30, 40}, {0.3, 0.4, 0.5}));
-  bodies.back().angular_velocity = {0.1, 3, 0.2};
-  bodies.push_back(brick("changed", {-20, 0, 0.5}));
-  Scene scene = test::with_profile(on_ground(std::move(bodies)), profile);
-  scene.collision.threads = threads;
-  return scene;
-}
-
 TEST_P(Changes, WhatAMoveAndAKickDoNotTouchGoesOnToTheBit) {
-  CollisionLayer left_alone(several(1, GetParam())), sut(several(1, GetParam()));
+  CollisionLayer left_alone = layer(test::several()), sut = layer(test::several());
   for (int n = 1; n <= 240; ++n) {
     if (n == 20) sut.set_state(column(sut, "changed"), {{-25, 0, 3}, Quat::Identity()}, {});
     if (n == 30) sut.kick(column(sut, "changed"), {{10, 0, 0}, {0, 0, 3}});
@@ -308,7 +256,10 @@ TEST_P(Changes, WhatAMoveAndAKickDoNotTouchGoesOnToTheBit) {
 }
 
 TEST_P(Changes, OneThreadAndTwoAgreeInEveryBitThroughChanges) {
-  CollisionLayer one(several(1, GetParam())), two(several(2, GetParam()));
+  Scene scene = test::with_profile(test::several(), GetParam());
+  CollisionLayer one(scene);
+  scene.collision.threads = 2;
+  CollisionLayer two(scene);
   for (int n = 1; n <= 240; ++n) {
     for (CollisionLayer* sut : {&one, &two}) {
       if (n == 40) sut->set_state(column(*sut, "changed"), {{0.3, 0, 2.8}, Quat::Identity()}, {});
