@@ -72,7 +72,7 @@ TEST(Malformed, CommandsAreReportedWithTheirIdentityAndTheStreamGoesOn) {
   ASSERT_NE(writer, nullptr);
   ASSERT_TRUE(eventually([&] { return subscriber.writers() == 1 && is_matched(writer); }));
 
-  msg::v1::BodyWrench command;
+  msg::v2::BodyWrench command;
   ASSERT_EQ(to_message(sample::wrench(), command), "");
   command.seq(7);
   command.force().x(std::numeric_limits<double>::quiet_NaN());
