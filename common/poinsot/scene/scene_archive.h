@@ -15,10 +15,6 @@
 namespace poinsot {
 
 template <class Archive>
-void archive(Archive& with, Pose& pose) {
-  with(pose.c, pose.q);
-}
-template <class Archive>
 void archive(Archive& with, Sphere& shape) {
   auto& [radius] = shape;
   with(radius);

@@ -23,6 +23,11 @@ namespace poinsot {
 struct Velocity {
   Vec3 linear = Vec3::Zero();   // [m/s] of the centre of mass, in W
   Vec3 angular = Vec3::Zero();  // [rad/s] in W
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(linear, angular);
+  }
 };
 
 enum class Motion : std::uint8_t {
@@ -52,6 +57,10 @@ struct World {
   void freeze(Eigen::Index i);
   void thaw(Eigen::Index i);
 
+  // What of it changes in a run, for a world of the same scene.
+  template <class Archive>
+  void archive(Archive& with);
+
   double time = 0;  // [s]
   Vec3 gravity;     // [m/s²] in W
   StateArray y;     // 13×n
@@ -77,6 +86,11 @@ struct World {
   struct Kinematic {
     Velocity velocity;
     Pose start;  // of the centre of mass at time 0
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(velocity, start);
+    }
   };
   std::vector<Kinematic> kinematic;
 
