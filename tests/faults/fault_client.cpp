@@ -11,6 +11,7 @@
 //     frame FRAME HASH LATENCY_MS WALL_S
 //     reply SEQ CODE FIRST_FRAME TOOK_MS WALL_S
 //     lost SEQ WALL_S                              no answer within 5 s
+//   fault_client expect 0 SCENE FRAMES             hashes of an undisturbed run, from frame 0
 //
 // Exit status 0: done; 1: the daemon did not answer.
 
@@ -21,6 +22,7 @@
 #include <string>
 #include <thread>
 
+#include "faults/witness.h"
 #include "poinsot/client/client.h"
 #include "poinsot/wire/participant.h"
 #include "poinsot/wire/publisher.h"
@@ -126,6 +128,12 @@ int follow(int domain, const std::string& world, double seconds, const std::stri
   return 0;
 }
 
+int expect(const std::string& scene, std::uint64_t frames) {
+  for (const std::uint64_t hash : undisturbed_hashes(scene, frames))
+    std::printf("%llu\n", static_cast<unsigned long long>(hash));
+  return 0;
+}
+
 int play(int argc, char** argv) {
   const std::string role = argc > 3 ? argv[1] : "";
   const auto word = [&](int i) { return std::string(i < argc ? argv[i] : ""); };
@@ -135,7 +143,8 @@ int play(int argc, char** argv) {
   if (role == "visit") return visit(domain, word(3), static_cast<int>(number(4)));
   if (role == "flood") return flood(domain, word(3), number(4), number(5));
   if (role == "follow") return follow(domain, word(3), number(4), word(5));
-  std::fprintf(stderr, "usage: fault_client hold|visit|flood|follow DOMAIN WORLD ...\n");
+  if (role == "expect") return expect(word(3), static_cast<std::uint64_t>(number(4)));
+  std::fprintf(stderr, "usage: fault_client expect|hold|visit|flood|follow DOMAIN WORLD ...\n");
   return 2;
 }
 
