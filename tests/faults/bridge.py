@@ -7,8 +7,10 @@ import heapq
 import os
 import random
 import select
+import shutil
 import struct
 import subprocess
+import tempfile
 import threading
 import time
 
@@ -49,6 +51,7 @@ class Bridge:
         self.carried = self.dropped = 0
         self.random = random.Random(1)
         self.waiting = []     # heap of (when, number, tap, frame)
+        self.memory = [tempfile.mkdtemp() for _ in "ab"]
         self.names = [f"poinsot{os.getpid()}{side}" for side in "ab"]
         self.taps = [open_tap(name) for name in self.names]
         for host, name in enumerate(self.names):
@@ -62,14 +65,15 @@ class Bridge:
     def close(self):
         self.running = False
         self.thread.join()
-        for tap, name in zip(self.taps, self.names):
+        for tap, name, memory in zip(self.taps, self.names, self.memory):
             os.close(tap)
             subprocess.run(["ip", "netns", "delete", name])
+            shutil.rmtree(memory)
 
     def popen(self, host, arguments, **more):
-        """A process on a host, which has shared memory of its own."""
+        """A process on a host, whose processes share memory with each other and nobody else."""
         return subprocess.Popen(["ip", "netns", "exec", self.names[host], "sh", "-c",
-                                 'mount -t tmpfs tmpfs /dev/shm && exec "$@"', "sh"] + arguments, **more)
+                                 'mount --bind "$0" /dev/shm && exec "$@"', self.memory[host]] + arguments, **more)
 
     def carry(self):
         while self.running:

@@ -87,7 +87,7 @@ class Client:
 
 
 def status(net, directory):
-    answer = net.popen(0, [f"{directory}/poinsot", "status", "--json", "--world", WORLD, "--domain", DOMAIN],
+    answer = net.popen(0, [f"{directory}/poinsot", "status", "--json", "--world", WORLD, "--domain", DOMAIN, "--listen", "lan"],
                        stdout=subprocess.PIPE)
     return json.loads(answer.communicate(timeout=30)[0])
 
