@@ -62,11 +62,12 @@ dds::ResourceLimitsQosPolicy limits(const TopicQos& topic, int depth) {
   return limits;
 }
 
-void add_peer(dds::DomainParticipantQos& qos, const char* address, std::uint32_t port) {
-  eprosima::fastrtps::rtps::Locator_t peer;
-  eprosima::fastrtps::rtps::IPLocator::setIPv4(peer, address);
-  peer.port = port;  // 0: the ports of the first kMaxLocalParticipants participants
-  qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+// Port 0: the ports of the first kMaxLocalParticipants participants.
+eprosima::fastrtps::rtps::Locator_t udp_locator(const char* address, std::uint32_t port) {
+  eprosima::fastrtps::rtps::Locator_t locator;
+  eprosima::fastrtps::rtps::IPLocator::setIPv4(locator, address);
+  locator.port = port;
+  return locator;
 }
 
 // Discovery through a server that passes everything on: worlds are found by their topics.
@@ -165,11 +166,15 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
   discovery.leaseDuration_announcementperiod = milliseconds(250);
   discovery.initial_announcements = {10, milliseconds(50)};
   // Loopback need not be able to multicast: participants of this host are greeted one by one.
-  add_peer(qos, kLoopback, 0);
+  wire.builtin.initialPeersList.push_back(udp_locator(kLoopback, 0));
   if (!options.discovery_server.empty()) set_discovery_server(options.discovery_server, discovery);
-  if (options.lan)
-    add_peer(qos, kMulticast,
-             wire.port.getMulticastPort(static_cast<std::uint32_t>(options.domain)));
+  if (!options.lan) return;
+  // Those of other hosts hear of us there, and we of them: with the unicast locators of our own,
+  // Fast DDS does not listen there by itself.
+  const auto everyone = udp_locator(
+      kMulticast, wire.port.getMulticastPort(static_cast<std::uint32_t>(options.domain)));
+  wire.builtin.initialPeersList.push_back(everyone);
+  wire.builtin.metatrafficMulticastLocatorList.push_back(everyone);
 }
 
 }  // namespace poinsot
