@@ -158,7 +158,19 @@ void CollisionLayer::take_as_given(double energy) {
 void CollisionLayer::set_tethers(std::span<const Tether> tethers) {
   frame_->motion.set_tethers(tethers);
 }
-void CollisionLayer::save(ByteWriter&) const {}
-void CollisionLayer::restore(ByteReader&) {}
+
+template <class Archive>
+void CollisionLayer::archive(Archive& with) {
+  with(frame_->motion, report_, energy_scale_, start_energy_, quarantined_);
+}
+
+void CollisionLayer::save(ByteWriter& out) const {
+  const_cast<CollisionLayer*>(this)->archive(out);  // a writer changes nothing
+}
+
+void CollisionLayer::restore(ByteReader& in) {
+  impacts_.clear();  // of a frame that is over
+  archive(in);
+}
 
 }  // namespace poinsot

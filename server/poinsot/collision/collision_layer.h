@@ -39,6 +39,13 @@ struct CollisionReport {
   double contact_residual = 0;
   std::uint32_t solver_iterations = 0;  // of convex_newton, all solves together
   std::uint32_t unconverged = 0;        // solves of it that did not reach its tolerance
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(contacts, max_penetration, impact_loss, push_out_energy, islands, restarts, searches,
+         search_poses, search_gaps, impacts, crowded, asleep, soft_bodies, direct_bodies,
+         contact_residual, solver_iterations, unconverged);
+  }
 };
 
 // What one body exerts on another at a point, as last solved. Sleeping pairs keep theirs.
@@ -131,6 +138,8 @@ class CollisionLayer {
   const CollisionTimes& times() const { return times_; }
 
  private:
+  template <class Archive>
+  void archive(Archive& with);
   void rebase_energy();
   double energy_about(Eigen::Index i) const;
   void take_as_given(double energy);

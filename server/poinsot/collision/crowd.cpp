@@ -250,11 +250,10 @@ bool Crowd::is_easy(const CollisionState& state, const Island& island) {
 // Whether no body is more than kMostLevels contacts away from what does not move.
 bool Crowd::is_shallow(const CollisionState& state, const Island& island) {
   if (island.bodies.size() <= static_cast<std::size_t>(kMostLevels)) return true;
-  const World& world = state.world();
   constexpr int kUnknown = kMostLevels + 1;
   for (const Eigen::Index i : island.bodies) level_[static_cast<std::size_t>(i)] = kUnknown;
   const auto level = [&](int body) {
-    return world.moves(body) ? level_[static_cast<std::size_t>(body)] : 0;
+    return state.is_awake(body) ? level_[static_cast<std::size_t>(body)] : 0;
   };
   for (int sweep = 0, changed = 1; changed != 0 && sweep < kMostLevels; ++sweep) {
     changed = 0;

@@ -79,6 +79,8 @@ class Crowd {
   bool may_step(const CollisionState& state, const Island& island) const;
   // Adds what a continuation depends on.
   void hash_into(Hash64& hash) const;
+  template <class Archive>
+  void archive(Archive& with, const CollisionState& state);
   // Whether an island is stepped with the crowd in the frame that begins. `strain` per body:
   // of the last step (CrowdStep).
   bool takes(const CollisionState& state, const Island& island, std::span<const double> strain,

@@ -24,6 +24,9 @@ class FrameMotion {
 
   void contact_forces(std::vector<ContactForce>& forces) const;
   void hash_into(Hash64& hash) const;
+  // All that crosses frames; islands, steps and workers are scratch.
+  template <class Archive>
+  void archive(Archive& with);
 
   // Changes from outside, between frames (frame_changes.cpp).
   Eigen::Index spawn(const BodyDef& body);

@@ -25,6 +25,10 @@ class EnergyScale {
   // Bodies came, went or were moved: at least what the scale would be if it started now.
   void widen(const World& world);
   double value() const { return potential_ + largest_kinetic_; }
+  template <class Archive>
+  void archive(Archive& with) {
+    with(potential_, largest_kinetic_);
+  }
 
  private:
   double potential_ = 0;

@@ -34,6 +34,10 @@ struct Tally {
 
   void add(const Tally& later);         // of the same bodies
   void add_apart(const Tally& others);  // of other bodies at the same time
+  template <class Archive>
+  void archive(Archive& with) {
+    with(work, error, mismatch, largest_momentum, quarantined, stiff);
+  }
 };
 
 // Scratch of one thread.
@@ -128,6 +132,12 @@ class SimulationLayer {
 
   // Adds what a continuation depends on besides the world: where flights began, and step sizes.
   void hash_into(Hash64& hash) const;
+
+  // All that a continuation depends on; scratch is left out. For a layer of the same scene.
+  template <class Archive>
+  void archive(Archive& with);
+  // To a course of body i that was read from bytes: whose it is. False if there can be none such.
+  bool attach(Course& course, Eigen::Index i);
 
   // What of a body changes in an advance: to go back to.
   struct Backup {

@@ -24,6 +24,11 @@ namespace poinsot {
 struct Velocity {
   Vec3 linear = Vec3::Zero();   // [m/s] of the centre of mass, in W
   Vec3 angular = Vec3::Zero();  // [rad/s] in W
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(linear, angular);
+  }
 };
 
 enum class Motion : std::uint8_t {
@@ -69,6 +74,10 @@ struct World {
   void freeze(Eigen::Index i);
   void thaw(Eigen::Index i);
 
+  // What of it changes in a run, for a world of the same scene.
+  template <class Archive>
+  void archive(Archive& with);
+
   double time = 0;  // [s]
   Vec3 gravity;     // [m/s²] in W
   StateArray y;     // 13×n
@@ -104,6 +113,11 @@ struct World {
     Velocity velocity;
     Pose start;        // of the centre of mass …
     double since = 0;  // [s] … at this time
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(velocity, start, since);
+    }
   };
   std::vector<Kinematic> kinematic;
 
