@@ -69,7 +69,7 @@ Scene heap(ContactSolverKind solver, ImpactSearchKind search) {
   const std::vector<Shape> shapes = {Box{{0.5, 0.4, 0.3}}, Sphere{0.2},
                                      Cylinder{0.2, 0.4},   Capsule{0.15, 0.3},
                                      Cone{0.2, 0.4},       Ellipsoid{{0.2, 0.25, 0.3}}};
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 12; ++i) {
     BodyDef def = body("body" + std::to_string(i), shapes[static_cast<std::size_t>(i) % 6],
                        {0.55 * (i % 3), 0.55 * (i / 3 % 2), 0.4 + 0.7 * (i / 6)});
     def.pose.q = Quat(1, 0.05 * (i % 3), 0.04 * (i % 5), 0.03 * (i % 7)).normalized();
