@@ -161,7 +161,7 @@ void CollisionLayer::set_tethers(std::span<const Tether> tethers) {
 
 template <class Archive>
 void CollisionLayer::archive(Archive& with) {
-  with(frame_->motion, report_, energy_scale_, start_energy_, quarantined_);
+  with(frame_->motion, report_, energy_scale_, scale_is_old_, start_energy_, quarantined_);
 }
 
 void CollisionLayer::save(ByteWriter& out) const {

@@ -60,6 +60,7 @@ void Crowd::set_body(const CollisionState& state, Eigen::Index i) {
     member_.push_back(0);
     may_step_.push_back(0);
     counted_.push_back(0);
+    looked_.push_back(0);
     fits_.push_back(0);
     level_.push_back(0);
     forced_.push_back(0);
@@ -104,6 +105,7 @@ void Crowd::look_at_forces(const World& world, Eigen::Index i) {
 void Crowd::next_frame() {
   ++frame_;
   before_ = member_;
+  std::fill(looked_.begin(), looked_.end(), 0);
   for (int& frames : promoted_) frames = std::max(0, frames - 1);
 }
 
@@ -130,7 +132,9 @@ void Crowd::set_member(Eigen::Index i, bool member) {
 void Crowd::look(const CollisionState& state, double h, Team& team) {
   run_chunks(team, member_.size(), [&](std::size_t k) {
     const auto i = static_cast<Eigen::Index>(k);
-    if (member_[k] != 0 && state.is_awake(i)) fits_[k] = look(state, i, h) ? 1 : 0;
+    if (member_[k] == 0 || !state.is_awake(i)) return;
+    looked_[k] = 1;
+    fits_[k] = look(state, i, h) ? 1 : 0;
   });
 }
 
@@ -170,7 +174,8 @@ Aabb Crowd::roomy_box(const CollisionState& state, const Collider& collider, dou
 bool Crowd::is_near(const CollisionState& state, const PairRecord& record) const {
   const auto box = [&](int collider, int body) -> const Aabb& {
     const auto c = static_cast<std::size_t>(collider);
-    return had(body) && state.is_awake(body) ? near_[c] : state.bound[c];
+    const bool known = looked_[static_cast<std::size_t>(body)] != 0;  // or it slept
+    return known && state.is_awake(body) ? near_[c] : state.bound[c];
   };
   const auto is_plane = [&](int collider) {
     return kind_[static_cast<std::size_t>(collider)] == Kind::plane;

@@ -80,7 +80,7 @@ class Crowd {
   // Adds what a continuation depends on.
   void hash_into(Hash64& hash) const;
   template <class Archive>
-  void archive(Archive& with, const CollisionState& state);
+  void archive(Archive& with);
   // Whether an island is stepped with the crowd in the frame that begins. `strain` per body:
   // of the last step (CrowdStep).
   bool takes(const CollisionState& state, const Island& island, std::span<const double> strain,
@@ -99,14 +99,14 @@ class Crowd {
   std::vector<std::uint8_t> member_;  // per body
   std::vector<std::uint8_t> before_;  // per body: member_ when the frame began
   std::vector<std::uint8_t> may_step_;  // per body: nothing acts on it that soft_step does not know
-  std::vector<std::uint8_t>
-      counted_;                     // per body: the same, but for tethers and whether it is frozen
-  std::size_t count_ = 0;           // of them
-  std::vector<std::uint8_t> fits_;  // per body
+  std::vector<std::uint8_t> counted_;   // per body: the same, tethers and quarantine aside
+  std::size_t count_ = 0;               // of them
+  std::vector<std::uint8_t> looked_;    // per body: it was looked at in this frame, so that …
+  std::vector<std::uint8_t> fits_;      // … this holds
   enum class Kind : std::uint8_t { solid, plane, mesh };
   std::vector<Kind> kind_;  // per collider: close together
   bool has_mesh_ = false;
-  std::vector<Aabb> near_;  // per collider of a body looked at
+  std::vector<Aabb> near_;  // per collider of a body that was
 
   std::vector<int> level_;  // per body: of a stack, while it is counted
   std::uint64_t frame_ = 1;

@@ -34,7 +34,7 @@ void PairStore::make_crowd_contact(PairRecord& record) {
   }
   record.crowd_contact = free_crowd_.back();
   free_crowd_.pop_back();
-  crowd_contact(record).forget();
+  crowd_contact(record) = {};
 }
 
 void PairStore::drop(const PairRecord& record) {
