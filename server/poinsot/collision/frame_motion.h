@@ -29,6 +29,7 @@ class FrameMotion {
   void archive(Archive& with);
 
   void touch() { touched_ = true; }
+  void set_tethers(std::span<const Tether> tethers);
   CollisionState& state() { return state_; }
   const CollisionState& state() const { return state_; }
 
