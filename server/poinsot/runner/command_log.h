@@ -72,7 +72,8 @@ class CommandLogWriter {
   // From any thread.
   State state() const;
   std::string failure() const;   // why it failed; empty as long as it has not
-  bool wait_until_open() const;  // false: failed
+  bool wait_until_open() const;   // false: failed
+  bool wait_until_ended() const;  // after end(); false: failed
   const std::filesystem::path& file() const { return start_.file; }
 
  private:
