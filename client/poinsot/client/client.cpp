@@ -96,8 +96,8 @@ struct EventsLink {
 
 using Bodies = std::map<std::uint32_t, BodyInfo>;  // by place in the scene file
 
-bool is_complete(const Bodies& bodies) {
-  return !bodies.empty() && bodies.size() == bodies.begin()->second.count;
+bool is_complete(const Bodies& bodies, std::uint32_t count) {
+  return !bodies.empty() && bodies.size() == count;
 }
 
 }  // namespace
@@ -168,12 +168,24 @@ struct Client::Impl {
   void take_scene() {
     BodyInfo body;
     while (link->scene.take(body)) {
+      if (body.removed) {
+        std::erase_if(scenes[scene_session],
+                      [&](const auto& entry) { return entry.second.id == body.id; });
+        continue;
+      }
       scene_session = body.session;
       scenes[body.session][body.index] = std::move(body);
       // A daemon that is gone is looked at a little longer than it lives; older ones are not.
       std::erase_if(scenes, [&](const auto& entry) {
         return entry.first != scene_session && entry.first != session;
       });
+    }
+  }
+
+  void take_reports() {
+    while (link->report.take(spare_report)) {
+      std::swap(newest_report, spare_report);
+      report_is_new = true;
     }
   }
 
@@ -209,9 +221,11 @@ struct Client::Impl {
   ImpactNotice spare_impact;                     // received into
   using PoseKey = std::array<std::uint64_t, 3>;  // session, epoch, frame
   PoseKey last_taken{};
-  PoseSnapshot spare;               // received into, then swapped: a refused sample spoils nothing
-  std::uint64_t session = 0;        // of the poses or report read last
-  std::uint64_t scene_session = 0;  // of the body received last
+  PoseSnapshot spare;  // received into, then swapped: a refused sample spoils nothing
+  RunReport newest_report, spare_report;
+  bool report_is_new = false;              // not returned yet
+  std::uint64_t session = 0;               // of the poses or report read last
+  std::uint64_t scene_session = 0;         // of the body received last
   std::map<std::uint64_t, Bodies> scenes;  // by session
   const Bodies no_bodies;
 };
@@ -278,16 +292,20 @@ bool Client::next_impact(ImpactNotice& impact, Duration timeout) {
 std::vector<BodyInfo> Client::scene(Duration timeout) {
   Link& link = impl_->opened();
   const Clock::time_point until = deadline(timeout);
-  while (impl_->take_scene(), !is_complete(impl_->current_scene())) {
+  std::uint32_t count = 0;
+  while (true) {
+    impl_->take_scene();
+    impl_->take_reports();
+    count = impl_->newest_report.scene_bodies;
+    if (is_complete(impl_->current_scene(), count)) break;
     const Duration left = until - Clock::now();
     if (left <= 0ns)
       throw NoAnswer(impl_->current_scene().empty()
                          ? impl_->nobody(timeout)
                          : "the scene of world '" + impl_->world + "' is incomplete: " +
                                std::to_string(impl_->current_scene().size()) + " of " +
-                               std::to_string(impl_->current_scene().begin()->second.count) +
-                               " bodies within " + seconds(timeout));
-    link.scene_wait.wait(left);
+                               std::to_string(count) + " bodies within " + seconds(timeout));
+    link.scene_wait.wait(std::min<Duration>(left, 50ms));  // a report may complete it as well
   }
   std::vector<BodyInfo> bodies;
   for (const auto& [index, body] : impl_->current_scene()) bodies.push_back(body);
@@ -297,15 +315,14 @@ std::vector<BodyInfo> Client::scene(Duration timeout) {
 RunReport Client::report(Duration timeout) {
   Link& link = impl_->opened();
   const Clock::time_point until = deadline(timeout);
-  RunReport newest;
-  while (!link.report.take(newest)) {
+  while (impl_->take_reports(), !impl_->report_is_new) {
     const Duration left = until - Clock::now();
     if (left <= 0ns) throw NoAnswer(impl_->nobody(timeout));
     link.report_wait.wait(left);
   }
-  for (RunReport later; link.report.take(later);) newest = later;
-  impl_->session = newest.session;
-  return newest;
+  impl_->report_is_new = false;
+  impl_->session = impl_->newest_report.session;
+  return impl_->newest_report;
 }
 
 Reply Client::apply(WrenchCommand command, Duration timeout) {

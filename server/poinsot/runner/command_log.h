@@ -4,6 +4,7 @@
 //   {"poinsot_log": 1, "build": …, "world": …, "frame": 120, "epoch": 1, "hash": "16 hex digits",
 //    "checkpoint": "base64"}                             the first line: where the log begins
 //   {"before": 121, "epoch": 1, "wrenches": […], "orders": […]}        a turn that had commands
+//   {"checkpoint": 1, "bytes": "base64"}      before the first restore of it: "checkpoint": 1 there
 //   {"frame": 121, "hash": "0123456789abcdef"}                         a frame that was advanced to
 //   {"end": 480}                                         the last line, with the number of frames
 //
@@ -50,7 +51,7 @@ class CommandLogWriter {
     failed,  // see failure(); what was written is a log that was cut
     ended,
   };
-  static constexpr std::size_t kFrames = 1u << 15;      // entries of the queue
+  static constexpr std::size_t kEntries = 1u << 15;     // of the queue: frames and turns
   static constexpr std::size_t kTurns = 1u << 12;       // of these, turns at most
   static constexpr std::size_t kTurnBytes = 64u << 20;  // of these turns; checkpoints are shared
 
@@ -68,12 +69,13 @@ class CommandLogWriter {
 
   // Takes no more entries; what is queued will be written and the file closed. Does not wait.
   void end() noexcept;
+  // The same, and waits until all is on disk. False: the log has failed.
+  bool close();
 
   // From any thread.
   State state() const;
   std::string failure() const;   // why it failed; empty as long as it has not
-  bool wait_until_open() const;   // false: failed
-  bool wait_until_ended() const;  // after end(); false: failed
+  bool wait_until_open() const;  // false: it has failed
   const std::filesystem::path& file() const { return start_.file; }
 
  private:
@@ -87,9 +89,17 @@ class CommandLogWriter {
     std::size_t turn_bytes = 0;
   };
 
-  void write_all();
+  // With the mutex.
+  bool takes_more() const;
+  bool has_room() const;
+  void push(const Entry& entry) noexcept;
+  void overflow() noexcept;
+
+  void run();
+  std::string write();  // the reason of a failure, or nothing
   bool take(Queue& queue);
-  void fail(std::string reason);
+  void set_state(State state, const std::string& failure);
+  bool overflowed() const;
 
   const LogStart start_;
   mutable std::mutex mutex_;
@@ -99,7 +109,7 @@ class CommandLogWriter {
   bool ending_ = false;
   bool overflowed_ = false;
   std::string failure_;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;
 };
 
 }  // namespace poinsot

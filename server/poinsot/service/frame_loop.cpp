@@ -47,12 +47,11 @@ void FrameLoop::run(const std::stop_token& stop) {
   SteadyTime::sharpen_sleeps();
   clock_ = FrameClock(SteadyTime{stop}, layer_.frame_rate());
   if (scale_ > 0) clock_.set_rate(layer_.frame_rate() * scale_);
-  last_autosave_ = SteadyTime::now();
-  autosaved_hash_ = layer_.snapshot().state_hash;
   begin_pace();
   if (!options_.record.empty()) begin_recording(options_.record);
   hand_over();
   report();
+  if (is_unsaved()) autosave();  // the newest on disk is of this run from its beginning
   while (!over()) {
     const bool due = await_turn(stop);
     if (stop.stop_requested()) break;
@@ -60,7 +59,7 @@ void FrameLoop::run(const std::stop_token& stop) {
     obey_inbox();
     if (due && !idle() && !over() && await_inputs(stop)) advance(began);
     overruns_ = clock_.overruns();
-    autosave();
+    autosave_now_and_then();
     report_now_and_then();
   }
   end_run();
@@ -75,9 +74,7 @@ bool FrameLoop::await_turn(const std::stop_token& stop) {
     if (!clock_.approach(kDeaf)) return false;
     clock_.wait();
   } else if (idle()) {
-    const bool to_save =
-        options_.autosave_ns > 0 && layer_.snapshot().state_hash != autosaved_hash_;
-    inbox_.wait(stop, to_save ? last_autosave_ + options_.autosave_ns : INT64_MAX);
+    inbox_.wait(stop, is_unsaved() ? last_autosave_ + options_.autosave_ns : INT64_MAX);
     meter_.restart(SteadyTime::now());
   }
   return true;

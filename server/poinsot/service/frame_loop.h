@@ -93,7 +93,6 @@ class FrameLoop {
   void obey_inbox();
   void answer_known();
   void accept(std::span<const WrenchCommand> commands);
-  void autosave();
   void end_run();
 
   // What a client asks for (frame_loop_orders.cpp).
@@ -108,6 +107,7 @@ class FrameLoop {
   void leave_lock_step(std::uint64_t client, const std::string& why);
   void answer_inputs(ResultCode code, const std::string& message);
   void obey_layer(const Order& order);
+  void obey_restore(const Order& order);
   void obey_release(const Order& order);
   void begin_epoch(ControlAction action);
 
@@ -120,6 +120,9 @@ class FrameLoop {
   void end_recording(const RunControl& control);
   void drop_failed_recording();
   void let_go(std::shared_ptr<CommandLogWriter> log);
+  bool is_unsaved() const;
+  void autosave();
+  void autosave_now_and_then();
 
   // Replies and reports (frame_loop_report.cpp).
   Reply reply_to(const RunControl& control, ResultCode code, const std::string& message) const;

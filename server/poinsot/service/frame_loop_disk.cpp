@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "poinsot/runner/store.h"
 #include "poinsot/service/frame_loop.h"
 
 namespace poinsot {
@@ -57,6 +58,8 @@ void FrameLoop::record(const RunControl& control) {
   if (!options_.store.log)
     return answer(control, ResultCode::operation_failed,
                   "the daemon keeps nothing on disk: it has no --data");
+  if (const std::string fault = store_name_fault(control.name); !fault.empty())
+    return answer(control, ResultCode::invalid_value, fault);
   auto log = options_.store.log(control.name, layer_.make_checkpoint(""));
   recording_.begin(control.name, log, layer_.frame() + 1, layer_.epoch());
   report();
@@ -80,8 +83,7 @@ void FrameLoop::end_recording(const RunControl& control) {
   // The last to let go of the writer waits for the disk: that is the worker.
   auto log = std::make_shared<std::shared_ptr<CommandLogWriter>>(recording_.end());
   const auto work = [log](Reply& reply) {
-    (*log)->wait_until_ended();
-    if ((*log)->state() != CommandLogWriter::State::failed) return;
+    if ((*log)->close()) return;
     reply.code = ResultCode::operation_failed;
     reply.message = (*log)->failure();
   };
@@ -99,13 +101,18 @@ void FrameLoop::let_go(std::shared_ptr<CommandLogWriter> log) {
   disk_.post([log = std::move(log)]() mutable { log.reset(); });
 }
 
+void FrameLoop::autosave_now_and_then() {
+  if (SteadyTime::now() - last_autosave_ >= options_.autosave_ns && is_unsaved()) autosave();
+}
+
+bool FrameLoop::is_unsaved() const {
+  return options_.autosave_ns > 0 && options_.store.autosave &&
+         layer_.snapshot().state_hash != autosaved_hash_;
+}
+
 void FrameLoop::autosave() {
-  if (options_.autosave_ns == 0 || !options_.store.autosave) return;
-  const std::int64_t now = SteadyTime::now();
-  const std::uint64_t hash = layer_.snapshot().state_hash;
-  if (now - last_autosave_ < options_.autosave_ns || hash == autosaved_hash_) return;
-  last_autosave_ = now;
-  autosaved_hash_ = hash;
+  last_autosave_ = SteadyTime::now();
+  autosaved_hash_ = layer_.snapshot().state_hash;
   auto checkpoint = layer_.make_checkpoint("auto-" + std::to_string(layer_.frame()));
   disk_.post(
       [save = options_.store.autosave, checkpoint = std::move(checkpoint)] { save(*checkpoint); });

@@ -22,11 +22,10 @@ Refusal invalid(std::string reason) {
   return {ResultCode::invalid_value, std::move(reason)};
 }
 
-// What ends a step or run_until that is under way.
+// What ends a step or run_until that is under way. A restore does so when its checkpoint is there.
 bool changes_course(ControlAction action) {
   return action == ControlAction::pause || action == ControlAction::resume ||
-         action == ControlAction::reset || action == ControlAction::restore ||
-         action == ControlAction::shutdown;
+         action == ControlAction::reset || action == ControlAction::shutdown;
 }
 
 }  // namespace
@@ -198,19 +197,24 @@ void FrameLoop::obey_release(const Order& order) {
 void FrameLoop::obey_layer(const Order& order) {
   const RunControl& control = order.control;
   const Reply reply = layer_.obey(order);
-  const bool ok = reply.code == ResultCode::ok;
-  if (control.action == ControlAction::restore && reply.code == ResultCode::not_found &&
-      !order.checkpoint && options_.store.read)
-    return restore_from_disk(control);
   recording_.note(order);
-  const bool new_epoch =
-      control.action == ControlAction::reset || control.action == ControlAction::restore;
-  if (ok && new_epoch) begin_epoch(control.action);
-  if (ok && control.action != ControlAction::save) hand_over();
+  const bool ok = reply.code == ResultCode::ok;
   if (ok && control.action == ControlAction::save && control.on_disk)
     return save_to_disk(control, reply);
+  if (ok && (control.action == ControlAction::reset || control.action == ControlAction::restore))
+    begin_epoch(control.action);
+  if (ok && control.action != ControlAction::save) hand_over();
   report();
   send(reply);
+}
+
+// With the checkpoint that it means, so that a log of the run can be repeated without it.
+void FrameLoop::obey_restore(const Order& order) {
+  Order complete = order;
+  if (!complete.checkpoint) complete.checkpoint = layer_.find_checkpoint(order.control.name);
+  if (!complete.checkpoint && options_.store.read) return restore_from_disk(order.control);
+  end_goal(ResultCode::operation_failed, "ended early by restore");
+  obey_layer(complete);
 }
 
 void FrameLoop::begin_epoch(ControlAction action) {

@@ -11,6 +11,14 @@ namespace {
 
 constexpr std::size_t kAutosavesKept = 3;
 
+// Of no name: the newest that can be read.
+std::shared_ptr<const Checkpoint> read(const Store& store, const std::string& name) {
+  if (!name.empty()) return store.load(name);
+  std::vector<std::string> faults;
+  if (auto checkpoint = store.load_newest(faults)) return checkpoint;
+  throw Error("no checkpoint is in memory or on disk");
+}
+
 }  // namespace
 
 std::optional<Store> open_store(const DaemonOptions& options, const std::string& world) {
