@@ -6,7 +6,8 @@
 
 namespace poinsot {
 
-Outbox::Outbox(std::size_t bodies) : bodies_(bodies) {
+Outbox::Outbox(std::size_t bodies, std::function<void()> wanted)
+    : bodies_(bodies), on_wanted_(std::move(wanted)) {
   for (PoseSnapshot& snapshot : ring_) snapshot.bodies.reserve(bodies);
   replies_.reserve(kReplies);
   impacts_.reserve(kImpacts);

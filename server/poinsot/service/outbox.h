@@ -37,13 +37,11 @@ class Outbox {
   static constexpr std::size_t kImpacts = 4096;
 
   // Room for snapshots and reports of so many bodies is made beforehand.
-  explicit Outbox(std::size_t bodies);
+  // `wanted` is called, by the writer's thread, when something that the loop has is wanted from now
+  // on and may be asked for at once: a paused loop has no next frame.
+  explicit Outbox(std::size_t bodies, std::function<void()> wanted = {});
 
   std::size_t bodies() const { return bodies_; }  // that there was room for at the start
-
-  // Called, by the writer's thread, when something that the loop has is wanted from now on and may
-  // be asked for at once: a paused loop need not have a next frame. Before threads start.
-  void on_wanted(std::function<void()> wanted) { on_wanted_ = std::move(wanted); }
 
   // From the loop, replies from any thread.
   void push(const PoseSnapshot& snapshot);
