@@ -80,13 +80,22 @@ void CommandInbox::take(Batch& batch) {
   batch.clear();
   const std::lock_guard lock(mutex_);
   std::swap(batch, pending_);
+  nudged_ = false;
   wrench_shares_.of.clear();
   order_shares_.of.clear();
 }
 
+void CommandInbox::nudge() {
+  {
+    const std::lock_guard lock(mutex_);
+    nudged_ = true;
+  }
+  arrived_.notify_one();
+}
+
 bool CommandInbox::wait(const std::stop_token& stop, std::int64_t until) {
   std::unique_lock lock(mutex_);
-  const auto something = [&] { return !pending_.empty(); };
+  const auto something = [&] { return nudged_ || !pending_.empty(); };
   if (until == INT64_MAX) return arrived_.wait(lock, stop, something);
   const std::chrono::steady_clock::time_point time{std::chrono::nanoseconds(until)};
   return arrived_.wait_until(lock, stop, time, something);

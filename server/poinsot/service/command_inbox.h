@@ -49,12 +49,15 @@ class CommandInbox {
   void push_own(Order order);
   void push_result(Reply reply);
 
+  // From any thread: the loop is to look after something else; its wait ends.
+  void nudge();
+
   // From the loop: everything that has come since the last call, in order of arrival. What `batch`
   // held before is gone; its memory goes back into use.
   void take(Batch& batch);
 
-  // From the loop: blocks until there is something to take (true), the time [ns] of the steady
-  // clock has come, or the stop (false).
+  // From the loop: blocks until there is something to take or a nudge (true), the time [ns] of the
+  // steady clock has come, or the stop (false).
   bool wait(const std::stop_token& stop, std::int64_t until = INT64_MAX);
 
   // A command that never got here: it could not be read, or was one too many of its client.
@@ -76,6 +79,7 @@ class CommandInbox {
   mutable std::mutex mutex_;
   std::condition_variable_any arrived_;
   Batch pending_;
+  bool nudged_ = false;
   Shares wrench_shares_, order_shares_;
   std::uint64_t full_ = 0;
   std::uint64_t never_got_here_ = 0;

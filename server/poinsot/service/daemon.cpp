@@ -4,7 +4,6 @@
 #include <random>
 #include <utility>
 
-#include "poinsot/service/body_infos.h"
 #include "poinsot/service/run_store.h"
 
 namespace poinsot {
@@ -43,12 +42,11 @@ Daemon::Daemon(Scene scene, const DaemonOptions& options, Logger logger,
       store_(open_store(options, world_)),
       layer_(first_state(std::move(scene), options)),
       trajectory_(open_trajectory(options, layer_)),
-      outbox_(layer_.snapshot().bodies.size()),
+      outbox_(layer_.snapshot().bodies.size(), [this] { inbox_.nudge(); }),
       clients_(options.limits),
       loop_(layer_, inbox_, outbox_, clients_, disk_, loop_options(options)),
       participant_(prepare_bus(options, layer_.snapshot().bodies.size(), logger_)),
-      publisher_(participant_, world_, outbox_,
-                 body_infos(layer_.scene(), layer_.world(), session_), session_, logger_),
+      publisher_(participant_, world_, outbox_, session_, logger_),
       receiver_(
           participant_, world_, inbox_, outbox_, clients_, [this] { return loop_.epoch(); },
           logger_) {

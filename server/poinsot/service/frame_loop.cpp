@@ -119,14 +119,33 @@ void FrameLoop::advance(std::int64_t began) {
 }
 
 void FrameLoop::hand_over() {
+  outbox_.push(scene_changes_.since_last(layer_));
   outbox_.push(layer_.impacts());
   outbox_.push(layer_.snapshot());
+  offer();
   if (options_.each_frame) options_.each_frame(layer_);
+}
+
+// What is made only while somebody wants it.
+void FrameLoop::offer() {
+  const auto now = std::pair(layer_.epoch(), layer_.frame());
+  if (!outbox_.contacts_wanted()) {
+    contacts_told_ = {};
+  } else if (std::exchange(contacts_told_, now) != now) {
+    layer_.contacts(contacts_);
+    outbox_.swap_in(contacts_);
+  }
+  if (!outbox_.held_wanted()) {
+    held_told_ = kNotTold;
+  } else if (std::exchange(held_told_, layer_.held_revision()) != layer_.held_revision()) {
+    layer_.held(held_);
+    outbox_.swap_in(held_);
+  }
 }
 
 void FrameLoop::obey_inbox() {
   inbox_.take(batch_);
-  if (batch_.empty()) return;
+  if (batch_.empty()) return offer();  // a nudge, perhaps
   for (const Reply& result : batch_.results) send(result);
   answer_known();
   recording_.begin_turn(layer_.frame() + 1, layer_.epoch());

@@ -21,6 +21,7 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "poinsot/presentation/frame_clock.h"
@@ -33,6 +34,7 @@
 #include "poinsot/service/pace_meter.h"
 #include "poinsot/service/recording.h"
 #include "poinsot/service/reply_cache.h"
+#include "poinsot/service/scene_changes.h"
 #include "poinsot/service/steady_time.h"
 
 namespace poinsot {
@@ -89,6 +91,7 @@ class FrameLoop {
   bool await_inputs(const std::stop_token& stop);
   void advance(std::int64_t began);
   void hand_over();
+  void offer();
   void begin_pace();
   void obey_inbox();
   void answer_known();
@@ -165,6 +168,14 @@ class FrameLoop {
   ReplyCache answered_;
   std::uint64_t accepted_ = 0;
   std::uint64_t refused_ = 0;
+
+  SceneChanges scene_changes_;
+  // What was handed over last of what is made only when it is wanted; their memory is reused.
+  ContactSnapshot contacts_;
+  HeldList held_;
+  std::pair<std::uint32_t, std::uint64_t> contacts_told_;  // epoch, frame; 0: none
+  static constexpr std::uint64_t kNotTold = UINT64_MAX;
+  std::uint64_t held_told_ = kNotTold;  // its revision
 
   // What was told last, so that the next report can say what is new.
   RunReport report_;              // its memory is reused

@@ -89,6 +89,7 @@ void FrameLoop::report(RunState state) {
       },
       report_.clients);
   report_.times = layer_.times();
+  outbox_.push(scene_changes_.since_last(layer_));  // before the report that counts it
   outbox_.push(report_);
 }
 
