@@ -1,4 +1,4 @@
-// poinsotd: runs, checks or studies a scene. Options → scene → run → exit code.
+// poinsotd: runs, checks, studies or replays a scene. Options → scene → run → exit code.
 
 #include <cstdlib>
 #include <exception>
@@ -12,6 +12,7 @@
 #include "poinsot/program/options.h"
 #include "poinsot/program/signals.h"
 #include "poinsot/runner/load_scene.h"
+#include "poinsot/runner/replay.h"
 #include "poinsot/runner/run_offline.h"
 #include "poinsot/study/study_command.h"
 #ifdef POINSOT_BUS
@@ -32,9 +33,18 @@ struct Options {
   bool json = false;
   std::uint64_t frames = 0;
   std::string trajectory;
+  std::string commands;
+  std::string record;
+  std::string log;
+  int threads = 0;
   int verbosity = 0;
   StudyOptions study;
 };
+
+void add_threads(CLI::App& verb, Options& o) {
+  verb.add_option("--threads", o.threads, "Threads of the physics (default: the scene's)")
+      ->check(CLI::Range(1, 256));
+}
 
 CLI::App* add_run(CLI::App& app, Options& o) {
   CLI::App* run = app.add_subcommand("run", "Run a scene and serve it on the bus");
@@ -48,8 +58,21 @@ CLI::App* add_run(CLI::App& app, Options& o) {
   run->add_flag("--offline", o.offline, "No bus and no pacing");
   run->add_option("--trajectory", o.trajectory, "Write every frame to this CSV file");
   run->add_flag("--json", o.json, "Only the closing summary, as one line of JSON");
+  run->add_option("--commands", o.commands, "Do what this command log says (--offline)");
+  run->add_option("--record", o.record, "Write a command log to this file (--offline)");
+  add_threads(*run, o);
   add_verbose_option(*run, o.verbosity);
   return run;
+}
+
+CLI::App* add_replay(CLI::App& app, Options& o) {
+  CLI::App* verb = app.add_subcommand(
+      "replay", "Run a command log again and compare every frame, without a bus");
+  verb->add_option("log", o.log, "Command log")->required();
+  verb->add_option("--trajectory", o.trajectory, "Write every frame to this CSV file");
+  verb->add_flag("--json", o.json, "The result as one line of JSON");
+  add_threads(*verb, o);
+  return verb;
 }
 
 CLI::App* add_check(CLI::App& app, Options& o) {
@@ -76,22 +99,38 @@ std::filesystem::path scene_file(const std::string& scene) {
   return find_scene(scene, directories);
 }
 
-void run_without_bus(Scene scene, const Options& o, StopSignals& signals) {
-  if (o.paused) throw Error("--paused: nothing could resume a run that is --offline");
+// Does the work on a thread of its own, which a signal stops.
+template <class Work>
+auto until_stopped(StopSignals& signals, const Work& work) {
   std::stop_source stop;
-  std::packaged_task<RunSummary()> task([&] {
-    return run_offline(std::move(scene), {.frames = o.frames, .trajectory = o.trajectory},
-                       stop.get_token());
-  });
-  std::future<RunSummary> result = task.get_future();
+  std::packaged_task<decltype(work(stop.get_token()))()> task(
+      [&] { return work(stop.get_token()); });
+  auto result = task.get_future();
   std::jthread worker([&] {
     task();
     signals.request_stop();
   });
   signals.wait();
   stop.request_stop();
-  const RunSummary summary = result.get();
+  return result.get();
+}
+
+void run_without_bus(Scene scene, const Options& o, StopSignals& signals) {
+  if (o.paused) throw Error("--paused: nothing could resume a run that is --offline");
+  const OfflineOptions options{
+      .frames = o.frames, .trajectory = o.trajectory, .commands = o.commands, .record = o.record};
+  const RunSummary summary = until_stopped(signals, [&](std::stop_token stop) {
+    return run_offline(std::move(scene), options, std::move(stop));
+  });
   std::cout << (o.json ? to_json(summary) : to_text(summary)) << std::flush;
+}
+
+ExitCode replay_log(const Options& o, StopSignals& signals) {
+  const ReplayResult result = until_stopped(signals, [&](std::stop_token stop) {
+    return replay(o.log, {.threads = o.threads, .trajectory = o.trajectory}, std::move(stop));
+  });
+  std::cout << (o.json ? to_json(result) : to_text(result)) << std::flush;
+  return result.difference ? ExitCode::failure : ExitCode::ok;
 }
 
 #ifdef POINSOT_BUS
@@ -103,7 +142,10 @@ std::string search_path() {
 
 void run(const Options& o, StopSignals& signals) {
   Scene scene = load_scene(scene_file(o.scene));
+  if (o.threads != 0) scene.collision.threads = o.threads;
   if (o.offline) return run_without_bus(std::move(scene), o, signals);
+  if (!o.commands.empty()) throw Error("--commands: needs --offline");
+  if (!o.record.empty()) throw Error("--record: needs --offline");
 #ifdef POINSOT_BUS
   const DaemonOptions options{.domain = o.bus.domain,
                               .lan = o.bus.lan,
@@ -136,9 +178,11 @@ int main_of(int argc, const char* const* argv) {
   Options options;
   const CLI::App* run_command = add_run(app, options);
   const CLI::App* study_command = add_study(app, options);
+  const CLI::App* replay_command = add_replay(app, options);
   add_check(app, options);
   if (const auto code = parse_command_line(app, argc, argv, std::cout, std::cerr)) return *code;
   try {
+    if (replay_command->parsed()) return to_int(replay_log(options, signals));
     if (run_command->parsed())
       run(options, signals);
     else if (study_command->parsed())

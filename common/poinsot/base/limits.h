@@ -24,6 +24,7 @@ inline constexpr std::size_t kMaxHeldWrenches = 65536;  // at once, of the scene
 
 inline constexpr std::size_t kMaxContacts = 65536;  // of one frame on the bus
 inline constexpr std::size_t kMaxListed = 4096;     // held wrenches on the bus
+inline constexpr std::size_t kMaxHeldPerClient = 4096;  // wrenches at once, of one client
 inline constexpr std::size_t kMaxClients = 64;      // told of in a report
 
 // The largest force [N] or torque [N·m] component and point coordinate [m] that is accepted.

@@ -109,7 +109,7 @@ double CollisionLayer::energy() const {
 EnergyBalance CollisionLayer::energy_balance() {
   const World& now = std::as_const(*this).world();
   const double kinetic = kinetic_energy(now);
-  energy_scale_.see(kinetic);
+  energy_scale_.see(kinetic + tether_energy(now));  // what clients do may be larger than the scene
   const double energy = kinetic + potential_energy(now);
   const double scale = energy_scale_.value();
   return {energy, scale > 0 ? (energy - expected_energy()) / scale : 0};
@@ -131,8 +131,22 @@ void CollisionLayer::set_state(Eigen::Index, const Pose&, const Velocity&) {
 void CollisionLayer::kick(Eigen::Index, const Wrench&) {
   throw Error("kick: not yet");
 }
-void CollisionLayer::set_tethers(std::span<const Tether>) {}
-void CollisionLayer::save(ByteWriter&) const {}
-void CollisionLayer::restore(ByteReader&) {}
+void CollisionLayer::set_tethers(std::span<const Tether> tethers) {
+  frame_->motion.set_tethers(tethers);
+}
+
+template <class Archive>
+void CollisionLayer::archive(Archive& with) {
+  with(frame_->motion, report_, energy_scale_, start_energy_, quarantined_);
+}
+
+void CollisionLayer::save(ByteWriter& out) const {
+  const_cast<CollisionLayer*>(this)->archive(out);  // a writer changes nothing
+}
+
+void CollisionLayer::restore(ByteReader& in) {
+  impacts_.clear();  // of a frame that is over
+  archive(in);
+}
 
 }  // namespace poinsot

@@ -39,6 +39,13 @@ struct CollisionReport {
   double contact_residual = 0;
   std::uint32_t solver_iterations = 0;  // of convex_newton, all solves together
   std::uint32_t unconverged = 0;        // solves of it that did not reach its tolerance
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(contacts, max_penetration, impact_loss, push_out_energy, islands, restarts, searches,
+         search_poses, search_gaps, impacts, crowded, asleep, soft_bodies, direct_bodies,
+         contact_residual, solver_iterations, unconverged);
+  }
 };
 
 // What one body exerts on another at a point, as last solved. Sleeping pairs keep theirs.
@@ -93,7 +100,7 @@ class CollisionLayer {
 
   // Energy [J], and the relative energy error since the start [-]: what the energy changed by
   // beyond the work of held wrenches, the work and loss at contacts and the push-out, over the
-  // energy scale.
+  // energy scale. Work includes what the ends of tethers did that were moved.
   EnergyBalance energy_balance();
   double energy() const;
   double energy_error() { return energy_balance().error; }
@@ -112,7 +119,9 @@ class CollisionLayer {
   // Changes P and L of a dynamic body at once: impulse [N·s] and angular impulse [N·m·s] about the
   // centre of mass, in W.
   void kick(Eigen::Index i, const Wrench& impulse);
-  // All tethers from now on.
+  // All tethers from now on; those of columns that do not move are ignored. The change of their
+  // energy is work, and no reason to start the balance afresh. The same ones again change nothing.
+  // Throws Error as SimulationLayer::set_tethers() does.
   void set_tethers(std::span<const Tether> tethers);
 
   // All that a continuation depends on, for a layer of the same scene, bodies spawned and absent
@@ -128,6 +137,8 @@ class CollisionLayer {
   const CollisionTimes& times() const { return times_; }
 
  private:
+  template <class Archive>
+  void archive(Archive& with);
   void rebase_energy();
   double expected_energy() const;  // [J] from the start, the work and the losses
 

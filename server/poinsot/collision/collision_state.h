@@ -30,6 +30,10 @@ struct CollisionState {
   // Moves a body on to t, if it is not there yet.
   void bring(Eigen::Index i, double t, SimulationWorker& worker, Tally& tally);
 
+  // All that a continuation depends on; what follows from the scene is left out.
+  template <class Archive>
+  void archive(Archive& with);
+
   // [m] gap below which a pair touches.
   double touch(const PairRecord& record) const;
 

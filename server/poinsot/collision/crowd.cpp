@@ -56,13 +56,7 @@ Crowd::Crowd(const CollisionState& state)
       forced_(state.stamp.size(), 0),
       promoted_(state.stamp.size(), 0) {
   const World& world = state.world();
-  for (std::size_t k = 0; k < may_step_.size(); ++k) {
-    const bool lone = world.systems.empty() || world.system_of[k] == World::kLone;
-    const bool drags =
-        !world.drag.empty() &&
-        (world.drag[k].linear > 0 || world.drag[k].quadratic > 0 || world.drag[k].angular > 0);
-    may_step_[k] = world.moves(static_cast<Eigen::Index>(k)) && lone && !drags ? 1 : 0;
-  }
+  for (Eigen::Index i = 0; i < world.size(); ++i) look_at_forces(world, i);
   for (const Collider& collider : state.colliders) {
     const bool plane = std::holds_alternative<HalfSpace>(collider.shape);
     const bool mesh = std::holds_alternative<Mesh>(collider.shape);
@@ -74,6 +68,16 @@ Crowd::Crowd(const CollisionState& state)
   everybody_ =
       state.def.contact_solver == ContactSolverKind::soft_step || (usual_ && moving > kMostMoving);
   if (everybody_) member_ = may_step_;
+}
+
+void Crowd::look_at_forces(const World& world, Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  const bool lone = world.systems.empty() || world.system_of[k] == World::kLone;
+  const bool drags =
+      !world.drag.empty() &&
+      (world.drag[k].linear > 0 || world.drag[k].quadratic > 0 || world.drag[k].angular > 0);
+  may_step_[k] = world.moves(i) && lone && !drags ? 1 : 0;
+  if (may_step_[k] == 0) member_[k] = 0;
 }
 
 void Crowd::next_frame() {
@@ -225,11 +229,10 @@ bool Crowd::is_easy(const CollisionState& state, const Island& island) {
 // Whether no body is more than kMostLevels contacts away from what does not move.
 bool Crowd::is_shallow(const CollisionState& state, const Island& island) {
   if (island.bodies.size() <= static_cast<std::size_t>(kMostLevels)) return true;
-  const World& world = state.world();
   constexpr int kUnknown = kMostLevels + 1;
   for (const Eigen::Index i : island.bodies) level_[static_cast<std::size_t>(i)] = kUnknown;
   const auto level = [&](int body) {
-    return world.moves(body) ? level_[static_cast<std::size_t>(body)] : 0;
+    return state.is_awake(body) ? level_[static_cast<std::size_t>(body)] : 0;
   };
   for (int sweep = 0, changed = 1; changed != 0 && sweep < kMostLevels; ++sweep) {
     changed = 0;

@@ -44,6 +44,8 @@ class Crowd {
   // searched before islands are parted.
   bool has(Eigen::Index i) const { return member_[static_cast<std::size_t>(i)] != 0; }
   void set_member(Eigen::Index i, bool member);
+  // Something else acts on body i from now on, not only held wrenches.
+  void look_at_forces(const World& world, Eigen::Index i);
 
   // What the shapes of its bodies may touch before `h` [s] have passed …
   void look(const CollisionState& state, double h, Team& team);
@@ -73,6 +75,8 @@ class Crowd {
   bool may_step(const CollisionState& state, const Island& island) const;
   // Adds what a continuation depends on.
   void hash_into(Hash64& hash) const;
+  template <class Archive>
+  void archive(Archive& with, const CollisionState& state);
   // Whether an island is stepped with the crowd in the frame that begins. `strain` per body:
   // of the last step (CrowdStep).
   bool takes(const CollisionState& state, const Island& island, std::span<const double> strain,

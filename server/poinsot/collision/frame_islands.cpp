@@ -241,7 +241,9 @@ void FrameMotion::fly_the_rest(double t_end, Tally& tally) {
                               motions_[static_cast<std::size_t>(thread)].worker(),
                               rest_tallies_[part]);
   };
-  if (world.systems.empty()) {
+  const bool apart = std::all_of(world.systems.begin(), world.systems.end(),
+                                 [](const BodySystem& s) { return s.columns.size() == 1; });
+  if (apart) {
     team_.run(parts, fly);
   } else {  // a system may have bodies in several parts
     for (std::size_t part = 0; part < parts; ++part) fly(part, 0);

@@ -60,6 +60,19 @@ void FrameMotion::place_resting(Eigen::Index i) {
   boxes_changed_ = true;
 }
 
+// Courses of tethered bodies begin afresh in every frame, as those of all driven ones do.
+void FrameMotion::set_tethers(std::span<const Tether> tethers) {
+  const World& world = state_.world();
+  const TetherChange change = state_.simulation.set_tethers(tethers);
+  if (change != TetherChange::joined) return;
+  for (IslandMotion& motion : motions_) motion.worker().prepare(world);
+  for (Eigen::Index i = 0; i < world.size(); ++i) crowd_.look_at_forces(world, i);
+  for (const Tether& tether : world.tethers)
+    if (state_.asleep[static_cast<std::size_t>(tether.column)] != 0)
+      sleep_.wake(state_, tether.column);
+  rests_ = false;
+}
+
 void FrameMotion::advance_to(double t_end, CollisionReport& report,
                              std::vector<ImpactEvent>& impacts, CollisionTimes& times) {
   impacts.clear();

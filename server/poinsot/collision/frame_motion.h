@@ -24,8 +24,12 @@ class FrameMotion {
 
   void contact_forces(std::vector<ContactForce>& forces) const;
   void hash_into(Hash64& hash) const;
+  // All that crosses frames; islands, steps and workers are scratch.
+  template <class Archive>
+  void archive(Archive& with);
 
   void touch() { touched_ = true; }
+  void set_tethers(std::span<const Tether> tethers);
   CollisionState& state() { return state_; }
   const CollisionState& state() const { return state_; }
 

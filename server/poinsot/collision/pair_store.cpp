@@ -45,6 +45,7 @@ void PairStore::drop(const PairRecord& record) {
   contact.last.clear();
   contact.last_h = 0;
   contact.margin = -1;
+  contact.measured = {};
   contact.digest = 0;
   free_.push_back(record.contact);
 }

@@ -30,6 +30,8 @@ class Sleep {
 
   std::uint32_t asleep() const { return asleep_; }
   void hash_into(Hash64& hash) const;
+  template <class Archive>
+  void archive(Archive& with, const CollisionState& state);
 
  private:
   void lay_down(CollisionState& state, Eigen::Index i, int group);
@@ -37,6 +39,11 @@ class Sleep {
   struct Before {
     Course::Column y = Course::Column::Zero();
     HeldWrench held;
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(y, held);
+    }
   };
   std::uint64_t frame_ = 0;
   std::vector<double>

@@ -10,7 +10,7 @@ std::vector<BodyInfo> body_infos(const Scene& scene, const World& world, std::ui
     infos.push_back({.session = session,
                      .id = world.ids[i],
                      .index = static_cast<std::uint32_t>(i),
-                     .count = static_cast<std::uint32_t>(scene.bodies.size()),
+                     .revision = 1,
                      .name = body.name,
                      .is_static = body.is_static,
                      .is_kinematic = body.is_kinematic,

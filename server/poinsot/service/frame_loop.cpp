@@ -234,6 +234,8 @@ void FrameLoop::report(RunState state) {
   report_.body_methods.assign(methods.begin(), methods.end());
   report_.frame_rate = layer_.frame_rate();
   report_.real_time_factor = state == RunState::playing ? real_time_factor_ : 0;
+  report_.scene_bodies = layer_.scene_bodies();
+  report_.scene_revision = layer_.scene_revision();
   report_.state_hash = layer_.snapshot().state_hash;
   report_.overruns = overruns_;
   report_.commands_accepted = accepted_;

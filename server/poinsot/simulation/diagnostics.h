@@ -20,6 +20,10 @@ class EnergyScale {
     largest_kinetic_ = kinetic > largest_kinetic_ ? kinetic : largest_kinetic_;
   }
   double value() const { return potential_ + largest_kinetic_; }
+  template <class Archive>
+  void archive(Archive& with) {
+    with(potential_, largest_kinetic_);
+  }
 
  private:
   double potential_ = 0;

@@ -71,9 +71,14 @@ SimulationLayer::SimulationLayer(const Scene& scene)
 }
 
 SimulationWorker::SimulationWorker(const World& world) : lone(1) {
+  for (std::size_t s = 0; s < world.scene_systems; ++s)
+    systems.emplace_back(world.systems[s].columns.size());
+  prepare(world);
+}
+
+void SimulationWorker::prepare(const World& world) {
   std::size_t bodies = 1, springs = 0;
   for (const BodySystem& system : world.systems) {
-    systems.emplace_back(system.columns.size());
     bodies = std::max(bodies, system.columns.size());
     springs = std::max(springs, system.springs.size());
   }
@@ -124,9 +129,37 @@ bool SimulationLayer::in_system(Eigen::Index i) const {
   return !world_.systems.empty() && world_.system_of[static_cast<std::size_t>(i)] != World::kLone;
 }
 
-SimulationLayer::Group SimulationLayer::system_group(int s, Workspace& work, StepMemory& memory) {
-  const BodySystem& system = world_.systems[static_cast<std::size_t>(s)];
-  return {system.columns, system.springs, work, memory};
+bool SimulationLayer::in_scene_system(Eigen::Index i) const {
+  return in_system(i) && static_cast<std::size_t>(world_.system_of[static_cast<std::size_t>(i)]) <
+                             world_.scene_systems;
+}
+
+// A tethered body that is no system of the scene works with the means of a lone body.
+SimulationLayer::Group SimulationLayer::system_group(int s, std::vector<Workspace>& of_scene,
+                                                     Workspace& lone, StepMemory& memory) {
+  const auto k = static_cast<std::size_t>(s);
+  const BodySystem& system = world_.systems[k];
+  return {system.columns, system.springs, k < world_.scene_systems ? of_scene[k] : lone, memory};
+}
+
+StepMemory& SimulationLayer::system_memory(int s) {
+  const auto k = static_cast<std::size_t>(s);
+  if (k < world_.scene_systems) return system_memories_[k];
+  return memories_[static_cast<std::size_t>(world_.systems[k].columns[0])];
+}
+
+TetherChange SimulationLayer::set_tethers(std::span<const Tether> tethers) {
+  const double energy = tether_energy(world_);
+  relaid_.clear();
+  const TetherChange change = poinsot::set_tethers(world_, tethers, relaid_);
+  if (change == TetherChange::none) return change;
+  total_.work += tether_energy(world_) - energy;
+  for (const Eigen::Index i : relaid_) {
+    const auto k = static_cast<std::size_t>(i);
+    (in_system(i) ? system_memory(world_.system_of[k]) : memories_[k]) = {};
+  }
+  if (change == TetherChange::joined) own_.front().prepare(world_);
+  return change;
 }
 
 void SimulationLayer::advance(std::span<const Eigen::Index> bodies, double from, double to,
@@ -137,8 +170,9 @@ void SimulationLayer::advance(std::span<const Eigen::Index> bodies, double from,
     if (in_system(i)) {
       const auto s = static_cast<std::size_t>(world_.system_of[k]);
       if (world_.systems[s].columns[0] == i)
-        integrate(system_group(world_.system_of[k], systems_[s], system_memories_[s]), to - from,
-                  advance, tally);
+        integrate(system_group(world_.system_of[k], systems_, worker.lone,
+                               system_memory(world_.system_of[k])),
+                  to - from, advance, tally);
     } else if (world_.is_kinematic(i)) {
       const Pose pose = kinematic_course(i, to).at(to);
       position(world_.y, i) = pose.c;
@@ -284,10 +318,11 @@ Course::Column SimulationLayer::preview(Eigen::Index i, const Course::Preview& c
   const auto k = static_cast<std::size_t>(i);
   SimulationWorker& worker = *course.worker;
   const bool coupled = in_system(i);
-  const auto s = coupled ? static_cast<std::size_t>(world_.system_of[k]) : 0;
-  StepMemory memory = coupled ? system_memories_[s] : memories_[k];  // left as it is
-  const Group group = coupled ? system_group(world_.system_of[k], worker.systems[s], memory)
-                              : Group{std::span(&i, 1), {}, worker.lone, memory};
+  StepMemory memory =  // left as it is
+      coupled ? system_memory(world_.system_of[k]) : memories_[k];
+  const Group group = coupled
+                          ? system_group(world_.system_of[k], worker.systems, worker.lone, memory)
+                          : Group{std::span(&i, 1), {}, worker.lone, memory};
   load(group, course.in_contact);
   const System system{group.work.bodies, group.springs, group.work.rates};
   LocalError error;
@@ -303,7 +338,7 @@ SimulationLayer::Backup SimulationLayer::backup(Eigen::Index i) const {
   b.method = methods_[k];
   b.motion = world_.motion[k];
   b.memory = memories_[k];
-  if (in_system(i))
+  if (in_scene_system(i))
     b.system_memory = system_memories_[static_cast<std::size_t>(world_.system_of[k])];
   if (!flies_free()) return b;
   b.flight = flights_[k];
@@ -320,7 +355,7 @@ void SimulationLayer::restore(Eigen::Index i, const Backup& b) {
   methods_[k] = b.method;
   memories_[k] = b.memory;
   contact_wrenches_[k] = Wrench{};
-  if (in_system(i))
+  if (in_scene_system(i))
     system_memories_[static_cast<std::size_t>(world_.system_of[k])] = b.system_memory;
   if (!flies_free()) return;
   flights_[k] = b.flight;
@@ -351,6 +386,7 @@ void SimulationLayer::hash_into(Hash64& hash) const {
       hash.add(memory.last_error);
       hash.add(static_cast<std::uint64_t>(memory.stiff_steps) * 2 + (memory.stiff ? 1 : 0));
     }
+  poinsot::hash_into(hash, std::span<const Tether>(world_.tethers));
 }
 
 }  // namespace poinsot

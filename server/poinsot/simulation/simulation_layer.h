@@ -18,30 +18,38 @@
 #include "poinsot/base/hash.h"
 #include "poinsot/simulation/course.h"
 #include "poinsot/simulation/integration.h"
+#include "poinsot/simulation/tethers.h"
 
 namespace poinsot {
 
 // What an advance of some bodies adds to the books. Sums are formed in the order of the sets, not
 // of the threads.
 struct Tally {
-  double work = 0;                // [J] of held and contact wrenches, drag and damping
-  LocalError error;               // sum over the advances of the largest of all bodies
-  double mismatch = 0;            // [kg·m²/s] the same of |ΔL − ∫τ|
+  double work = 0;      // [J] of held and contact wrenches, drag and damping, and on tethers
+  LocalError error;     // sum over the advances of the largest of all bodies
+  double mismatch = 0;  // [kg·m²/s] the same of |ΔL − ∫τ|
   double largest_momentum = 0;    // [kg·m²/s]
   std::uint32_t quarantined = 0;  // bodies frozen
   bool stiff = false;
 
   void add(const Tally& later);         // of the same bodies
   void add_apart(const Tally& others);  // of other bodies at the same time
+  template <class Archive>
+  void archive(Archive& with) {
+    with(work, error, mismatch, largest_momentum, quarantined, stiff);
+  }
 };
 
 // Scratch of one thread.
 struct SimulationWorker {
   explicit SimulationWorker(const World& world);
 
+  // Makes room for the springs of all systems.
+  void prepare(const World& world);
+
   TaylorSeries taylor;
   Workspace lone;
-  std::vector<Workspace> systems;  // to look ahead with
+  std::vector<Workspace> systems;  // of the scene's, to look ahead with
 };
 
 class SimulationLayer {
@@ -88,6 +96,12 @@ class SimulationLayer {
   void rest(Eigen::Index i) { methods_[static_cast<std::size_t>(i)] = Method::none; }
   bool flies_free() const { return integration_.kind() == IntegratorKind::exact; }
 
+  // All tethers from now on, between frames; those of columns that do not move are ignored. The
+  // change of their energy counts as work; what a system knows of its steps is forgotten if its
+  // tethers changed in more than their targets. Throws Error if one is not finite or pushes, before
+  // anything changed. Afterwards workers of others are to be prepared if it says `joined`.
+  TetherChange set_tethers(std::span<const Tether> tethers);
+
   World& world() { return world_; }
   const World& world() const { return world_; }
 
@@ -108,6 +122,12 @@ class SimulationLayer {
 
   // Adds what a continuation depends on besides the world: where flights began, and step sizes.
   void hash_into(Hash64& hash) const;
+
+  // All that a continuation depends on; scratch is left out. For a layer of the same scene.
+  template <class Archive>
+  void archive(Archive& with);
+  // To a course of body i that was read from bytes: whose it is. False if there can be none such.
+  bool attach(Course& course, Eigen::Index i);
 
   // What of a body changes in an advance: to go back to.
   struct Backup {
@@ -139,8 +159,10 @@ class SimulationLayer {
 
   bool is_pushed(Eigen::Index i) const;
   bool in_system(Eigen::Index i) const;
+  bool in_scene_system(Eigen::Index i) const;
   Course kinematic_course(Eigen::Index i, double to) const;
-  Group system_group(int s, Workspace& work, StepMemory& memory);
+  Group system_group(int s, std::vector<Workspace>& of_scene, Workspace& lone, StepMemory& memory);
+  StepMemory& system_memory(int s);
   void load(const Group& group, bool in_contact) const;
   void fly(Eigen::Index i, double from, double to, Tally& tally);
   void integrate(const Group& group, double duration, Advance& advance, Tally& tally);
@@ -155,11 +177,12 @@ class SimulationLayer {
   std::vector<Flight> flights_;         // of bodies whose method is flight
   std::vector<RotationBound> turning_;  // of those flights, once asked for
   std::vector<std::uint8_t> turning_known_;
-  std::vector<StepMemory> memories_;  // per body, for the embedded pairs
-  std::vector<StepMemory> system_memories_;
-  std::vector<Workspace> systems_;
-  std::vector<Eigen::Index> all_;      // columns
-  std::vector<SimulationWorker> own_;  // of advance_to
+  std::vector<StepMemory> memories_;         // per body, for the embedded pairs
+  std::vector<StepMemory> system_memories_;  // of the scene's systems …
+  std::vector<Workspace> systems_;           // … as these
+  std::vector<Eigen::Index> relaid_;         // columns whose tethers changed, while they do
+  std::vector<Eigen::Index> all_;            // columns
+  std::vector<SimulationWorker> own_;        // of advance_to
 
   Tally total_;
   LocalError frame_error_;

@@ -110,6 +110,7 @@ std::vector<BodySystem> make_systems(const Scene& scene, const World& world) {
     system.springs_of[static_cast<std::size_t>(link.a)].push_back(index);
     if (link.b >= 0) system.springs_of[static_cast<std::size_t>(link.b)].push_back(index);
     system.springs.push_back(link);
+    ++system.scene_springs;
   }
   return systems;
 }
@@ -117,7 +118,9 @@ std::vector<BodySystem> make_systems(const Scene& scene, const World& world) {
 SpringForce spring_force(const SpringLink& spring, const Vec3& x_a, const Vec3& x_b,
                          const Vec3& v_a, const Vec3& v_b) {
   const Vec3 d = x_a - x_b;
-  if (spring.is_linear()) return {-spring.stiffness * d, Vec3::Zero()};
+  if (spring.is_linear())
+    return {-spring.stiffness * d,
+            spring.damping > 0 ? Vec3(-spring.damping * (v_a - v_b)) : Vec3(Vec3::Zero())};
   const double r = d.norm();
   const Vec3 along = d / r;
   return {-spring.stiffness * (r - spring.rest) * along,

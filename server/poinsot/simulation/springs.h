@@ -10,7 +10,9 @@ namespace poinsot {
 
 struct World;
 
-// A spring between point p_a of body a and p_b of body b, or of W; indices into a system.
+// A spring between point p_a of body a and p_b of body b, or of W; indices into a system. Damping
+// is of the velocity along the line between them, or if it is isotropic of all of it: a spring that
+// is meant to have no length has no line.
 struct SpringLink {
   int a;
   int b;             // kWorld: p_b is in W
@@ -18,15 +20,18 @@ struct SpringLink {
   double stiffness;  // [N/m]
   double damping;    // [N·s/m]
   double rest;       // [m]
+  bool isotropic = false;
 
   static constexpr int kWorld = -1;
-  bool is_linear() const { return rest == 0 && damping == 0; }
+  // Its force is linear in where its points are and how they move.
+  bool is_linear() const { return rest == 0 && (isotropic || damping == 0); }
 };
 
 struct BodySystem {
   std::vector<Eigen::Index> columns;  // of the world
   std::vector<SpringLink> springs;
   std::vector<std::vector<int>> springs_of;  // per body: which springs hold it
+  std::size_t scene_springs = 0;             // the first of `springs`; the others are tethers
 };
 
 // The systems of more than a lone body without springs, each in column order; empty if the scene

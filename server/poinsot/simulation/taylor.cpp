@@ -165,11 +165,23 @@ void TaylorSeries::separate(const SpringLink& link, Spring& spring, std::size_t 
   if (!link.is_linear()) spring.squared[k] = dot_product(spring.d, spring.d, k);
 }
 
+// F = −stiffness d − damping d′ on a, and its opposite on b.
+void TaylorSeries::add_linear(const SpringLink& link, Spring& s, std::size_t k) {
+  s.force[k] = -link.stiffness * s.d[k];
+  if (!(link.damping > 0)) return;
+  const auto rate = [&](std::size_t j) -> Vec3 { return static_cast<double>(j + 1) * s.d[j + 1]; };
+  s.force[k] -= link.damping * rate(k);
+  double squared = 0;  // |d′|²
+  for (std::size_t j = 0; j <= k; ++j) squared += rate(j).dot(rate(k - j));
+  series_[static_cast<std::size_t>(link.a)].at[k + 1].c_W[3] -=
+      inverse_of_next(k) * link.damping * squared;
+}
+
 // F = −(stiffness (1 − rest/r) + damping (d·d′)/r²) d on a, and its opposite on b.
 bool TaylorSeries::add_spring(const SpringLink& link, Spring& s, std::size_t k) {
   separate(link, s, k + 1);  // d′ is needed too
   if (link.is_linear()) {
-    s.force[k] = -link.stiffness * s.d[k];
+    add_linear(link, s, k);
   } else {
     if (k == 0 && !(s.squared[0] > 0)) return false;  // no direction
     s.length[k] = square_root(s.squared, s.length, k);

@@ -87,6 +87,7 @@ class TaylorSeries {
 
   static bool add_drag(const DragDef& drag, Body& series, std::size_t k);
   void separate(const SpringLink& link, Spring& spring, std::size_t k) const;
+  void add_linear(const SpringLink& link, Spring& spring, std::size_t k);
   bool add_spring(const SpringLink& link, Spring& spring, std::size_t k);
   void pull(int index, const Vec3& p, const Series<Vec3>& lever, const Series<Vec3>& force,
             double sign, std::size_t k);

@@ -46,6 +46,7 @@ World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(), dragged))
     for (const BodyDef& body : scene.bodies) drag.push_back(body.drag);
   systems = make_systems(scene, *this);
+  scene_systems = systems.size();
   if (systems.empty()) return;
   system_of.assign(n, kLone);
   place_of.assign(n, 0);

@@ -23,6 +23,11 @@ namespace poinsot {
 struct Velocity {
   Vec3 linear = Vec3::Zero();   // [m/s] of the centre of mass, in W
   Vec3 angular = Vec3::Zero();  // [rad/s] in W
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(linear, angular);
+  }
 };
 
 enum class Motion : std::uint8_t {
@@ -52,6 +57,10 @@ struct World {
   void freeze(Eigen::Index i);
   void thaw(Eigen::Index i);
 
+  // What of it changes in a run, for a world of the same scene.
+  template <class Archive>
+  void archive(Archive& with);
+
   double time = 0;  // [s]
   Vec3 gravity;     // [m/s²] in W
   StateArray y;     // 13×n
@@ -68,15 +77,28 @@ struct World {
 
   std::vector<PrincipalAxes> principal_axes;
   std::vector<DragDef> drag;        // empty: no body has any
-  std::vector<BodySystem> systems;  // bodies with springs; empty: the scene has none
+  std::vector<BodySystem> systems;  // bodies with springs or tethers; empty: there are none
   std::vector<int> system_of;       // index into systems, or kLone; empty as systems
   std::vector<int> place_of;        // index into that system's columns; empty as systems
   static constexpr int kLone = -1;
+  std::size_t scene_systems = 0;  // the first of `systems`; the others are a tethered body each
+
+  // Set by set_tethers() (tethers.h).
+  std::vector<Tether> tethers;
+  struct TetherPlace {
+    int system, spring;  // indices into systems, and into that system's springs
+  };
+  std::vector<TetherPlace> tether_places;  // as tethers
 
   // Per column; empty: the scene has no kinematic bodies.
   struct Kinematic {
     Velocity velocity;
     Pose start;  // of the centre of mass at time 0
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(velocity, start);
+    }
   };
   std::vector<Kinematic> kinematic;
 
@@ -91,10 +113,10 @@ Vec3 linear_velocity(const World& world, Eigen::Index i);   // [m/s] of the cent
 Vec3 angular_velocity(const World& world, Eigen::Index i);  // [rad/s] in W
 Pose body_pose(const World& world, Eigen::Index i);         // of B in W
 
-// What acts on body i now, about c, in W: gravity, held wrench, drag and springs [N, N·m].
+// What acts on body i now, about c, in W: gravity, held wrench, drag, springs and tethers [N, N·m].
 Wrench acting_wrench(const World& world, Eigen::Index i);
 
-// Elastic energy of the springs, of one system or of all [J].
+// Elastic energy of springs and tethers, of one system or of all [J].
 double spring_energy(const World& world, const BodySystem& system);
 double spring_energy(const World& world);
 
