@@ -146,6 +146,7 @@ void FrameMotion::archive(Archive& with) {
   for (const std::size_t n : {world.ids.size(), state_.colliders.size(), world.scene_systems})
     agree(n);
   for (const BodyId id : world.ids) agree(id.generation);
+  if (shapes_changed_) fit_to_shapes();
   with(state_, broad_phase_);
   if constexpr (Archive::kReads) {
     for (std::size_t c = 0; c < state_.bound.size(); ++c)
@@ -156,6 +157,9 @@ void FrameMotion::archive(Archive& with) {
   with(crowd_);
   with.fixed(strain_);
   with.fixed(bounded_);
+  with(moved_);
+  for (const Eigen::Index i : moved_)
+    if (i < 0 || i >= world.size()) ByteReader::fail();
   with(boxes_changed_, touched_, rests_);
 }
 
