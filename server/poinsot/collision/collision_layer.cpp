@@ -109,7 +109,7 @@ double CollisionLayer::energy() const {
 EnergyBalance CollisionLayer::energy_balance() {
   const World& now = std::as_const(*this).world();
   const double kinetic = kinetic_energy(now);
-  energy_scale_.see(kinetic + tether_energy(now));  // what clients do may be larger than the scene
+  energy_scale_.see(kinetic);
   const double energy = kinetic + potential_energy(now);
   const double scale = energy_scale_.value();
   return {energy, scale > 0 ? (energy - expected_energy()) / scale : 0};
@@ -133,6 +133,7 @@ void CollisionLayer::kick(Eigen::Index, const Wrench&) {
 }
 void CollisionLayer::set_tethers(std::span<const Tether> tethers) {
   frame_->motion.set_tethers(tethers);
+  energy_scale_.see(tether_energy(std::as_const(*this).world()));  // it is a part of what flows
 }
 void CollisionLayer::save(ByteWriter&) const {}
 void CollisionLayer::restore(ByteReader&) {}

@@ -12,11 +12,11 @@ double potential_energy(const World& world);  // [J] −m g·c over the bodies t
 
 // Scale for the relative energy error [J]: Σ m |g| (height above the lowest body + radius of
 // gyration) at the start, plus the largest kinetic energy seen and the springs' energy at the
-// start.
+// start. What tethers hold when they are set counts as kinetic energy seen.
 class EnergyScale {
  public:
   explicit EnergyScale(const World& world);
-  void see(double kinetic) {
+  void see(double kinetic) {  // or what may become kinetic: of tethers
     largest_kinetic_ = kinetic > largest_kinetic_ ? kinetic : largest_kinetic_;
   }
   double value() const { return potential_ + largest_kinetic_; }
