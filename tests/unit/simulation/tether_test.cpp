@@ -176,7 +176,9 @@ TEST(Tether, BoundsHowFarItsBodyGoes) {
       farthest = std::max(farthest, (position(layer.world().y, 0) - body.pose.c).norm());
     }
     EXPECT_LE(farthest, bound.path);
-    if (stiffness > 1e4) EXPECT_LT(bound.path, 0.1 * speed_alone);
+    if (stiffness > 1e4) {
+      EXPECT_LT(bound.path, 0.1 * speed_alone);
+    }
   }
 }
 
