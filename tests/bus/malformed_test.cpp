@@ -1,67 +1,21 @@
 // What a careless or hostile peer may send: nonsense in well-formed samples, and samples that are
 // no message at all. Both are passed over; the stream goes on.
 
-#include <cstring>
 #include <limits>
 
-#include <fastdds/dds/publisher/DataWriter.hpp>
 #include <gtest/gtest.h>
 
 #include "poinsot/wire/convert.h"
-#include "poinsot/wire/message_types.h"
-#include "poinsot/wire/participant_impl.h"
 #include "poinsot/wire/publisher.h"
-#include "poinsot/wire/qos.h"
 #include "poinsot/wire/subscriber.h"
 #include "support/protocol_samples.h"
+#include "support/raw_type.h"
 #include "support/test_domain.h"
 
 namespace poinsot {
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
-
-// Sends bytes under the name of a type.
-class RawType : public dds::TopicDataType {
- public:
-  explicit RawType(const char* name) {
-    setName(name);
-    m_typeSize = 1 << 20;
-    m_isGetKeyDefined = false;
-  }
-  bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override {
-    const auto& bytes = *static_cast<std::vector<unsigned char>*>(data);
-    std::memcpy(payload->data, bytes.data(), bytes.size());
-    payload->length = static_cast<std::uint32_t>(bytes.size());
-    return true;
-  }
-  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t*, void*) override { return false; }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [data] {
-      return static_cast<std::uint32_t>(static_cast<std::vector<unsigned char>*>(data)->size());
-    };
-  }
-  void* createData() override { return nullptr; }
-  void deleteData(void*) override {}
-  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
-};
-
-// A writer of `Type` on a topic of Poinsot, under the topic's own quality of service.
-template <class Message>
-dds::DataWriter* foreign_writer(Participant& participant, const std::string& world,
-                                dds::TypeSupport type) {
-  BusCore& core = *participant.impl().core;
-  dds::Topic* topic = core.topic(topic_name(world, kTopicName<Message>), type);
-  dds::DataWriterQos qos = core.publisher()->get_default_datawriter_qos();
-  set_writer_qos(topic_qos(kTopicName<Message>), qos);
-  return core.publisher()->create_datawriter(topic, qos);
-}
-
-bool is_matched(dds::DataWriter* writer) {
-  dds::PublicationMatchedStatus status;
-  writer->get_publication_matched_status(status);
-  return status.current_count == 1;
-}
 
 TEST(Malformed, CommandsAreReportedWithTheirIdentityAndTheStreamGoesOn) {
   Participant here({.domain = test_domain()});
@@ -72,7 +26,7 @@ TEST(Malformed, CommandsAreReportedWithTheirIdentityAndTheStreamGoesOn) {
   ASSERT_NE(writer, nullptr);
   ASSERT_TRUE(eventually([&] { return subscriber.writers() == 1 && is_matched(writer); }));
 
-  msg::v1::BodyWrench command;
+  msg::v2::BodyWrench command;
   ASSERT_EQ(to_message(sample::wrench(), command), "");
   command.seq(7);
   command.force().x(std::numeric_limits<double>::quiet_NaN());

@@ -38,6 +38,11 @@ class Phase {
 
   double rate() const { return rate_; }  // [turn/s]
 
+  template <class Archive>
+  void archive(Archive& with) {
+    with(rate_, rate_low_, start_, start_low_);
+  }
+
  private:
   // a·b − fl(a·b), exactly, by splitting both factors in halves.
   static double product_error(double a, double b, double product) {

@@ -16,6 +16,11 @@ struct Pose {
   Vec3 operator*(const Vec3& point) const { return c + q * point; }  // child → parent
   Pose operator*(const Pose& child) const { return {c + q * child.c, q * child.q}; }
   Pose inverse() const { return {-(q.conjugate() * c), q.conjugate()}; }
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(c, q);
+  }
 };
 
 }  // namespace poinsot

@@ -15,6 +15,11 @@ struct Wrench {
     torque += other.torque;
     return *this;
   }
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(force, torque);
+  }
 };
 
 }  // namespace poinsot

@@ -15,8 +15,11 @@ namespace poinsot {
 struct BodyInfo {
   std::uint64_t session = 0;  // of the daemon process
   BodyId id;
-  std::uint32_t index = 0;  // place in the scene file
-  std::uint32_t count = 0;  // bodies in the scene: a late joiner knows when it has them all
+  std::uint32_t index = 0;  // place in the scene: its slot
+  // Counts the changes of what is in the scene. Who has as many bodies as RunReport::scene_bodies
+  // says for its scene_revision has them all.
+  std::uint32_t revision = 1;
+  bool removed = false;  // it is gone; only the id is of use
   std::string name;
   bool is_static = false;
   bool is_kinematic = false;       // moves with velocities of its own; has no mass

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "poinsot/base/stopwatch.h"
@@ -20,6 +21,9 @@ enum class FrameFlag : std::uint32_t {
   overrun = 4,           // a deadline was missed since the last report
   stiff = 8,             // springs were too stiff for the integrator: rosenbrock took over
   crowded = 16,          // more impacts in an island than it pays to locate
+  input_late = 32,       // a frame began without the input of a client in lock step
+  record_failed = 64,    // the log of the run could not be written; it ended
+  rate_limited = 128,    // a client sent more than it may
 };
 
 constexpr FrameFlag operator|(FrameFlag a, FrameFlag b) {
@@ -69,21 +73,52 @@ struct LayerTimes {
   Elapsed publishing;  // the publisher's thread
 };
 
+// Of some values, the median, the 99th percentile and the largest.
+struct Spread {
+  double p50 = 0, p99 = 0, max = 0;
+};
+
+// What one client did.
+struct ClientStatus {
+  std::uint64_t client = 0;
+  bool alive = true;                        // its writer is there
+  bool lock_step = false;                   // its input is waited for
+  std::uint32_t held = 0;                   // wrenches that it holds
+  std::uint64_t accepted = 0, refused = 0;  // commands and controls
+  std::uint64_t limited = 0;                // of the refused, for being too many
+};
+
 // The report topic: the frame's report and what the service knows of its pace.
 struct RunReport {
   std::uint64_t session = 0;
   std::uint32_t epoch = 0;
   RunState state = RunState::stopped;
   FrameReport frame;
-  double frame_rate = 60;            // [Hz]
-  double real_time_factor = 0;       // simulated / wall time over 150 ms or more; 0 while paused
+  double frame_rate = 60;  // [Hz]
+  double time_scale = 1;   // asked for: simulated / wall time; 0: as fast as it can
+  // Simulated / wall time; 0 while paused. Over the last 150 ms or a little more …
+  double real_time_factor = 0;
+  // … and since the run last began to play or was asked for another scale, at most 10 s.
+  double real_time_factor_window = 0;
+  // Of the last 1024 frames that were waited for: how late the loop woke after the frame was due
+  // [s], and how long the work of a frame took [s].
+  Spread lateness, frame_time;
+  std::uint32_t scene_bodies = 0;  // of all kinds, and the revision that has so many
+  std::uint32_t scene_revision = 1;
   std::vector<Method> body_methods;  // per dynamic body, in the order of the scene
   std::uint64_t state_hash = 0;
   std::uint64_t overruns = 0;  // frames that missed their deadline
   std::uint64_t commands_accepted = 0;
-  std::uint64_t commands_refused = 0;   // by the loop or the receiver
-  std::uint64_t snapshots_dropped = 0;  // by the hand-over to the bus
-  std::uint64_t events_dropped = 0;     // impacts, likewise
+  std::uint64_t commands_refused = 0;      // by the loop or the receiver
+  std::uint64_t commands_limited = 0;      // of the refused, for being too many
+  std::uint32_t held_wrenches = 0;         // by the scene and all clients
+  std::uint32_t checkpoints = 0;           // in memory
+  std::uint64_t late_inputs = 0;           // frames that began without an input waited for
+  std::uint32_t streams = 0;               // filtered streams of poses that somebody reads
+  std::string recording = {};              // name of the log that is written; empty: none
+  std::vector<ClientStatus> clients = {};  // those alive or holding something, by number
+  std::uint64_t snapshots_dropped = 0;     // by the hand-over to the bus
+  std::uint64_t events_dropped = 0;        // impacts, likewise
   LayerTimes times;
 };
 

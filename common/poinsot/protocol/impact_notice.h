@@ -22,6 +22,7 @@ struct ImpactNotice {
   std::uint64_t session = 0;
   std::uint32_t epoch = 0;
   std::uint64_t frame = 0;      // that was advanced when it happened
+  std::uint64_t sequence = 0;   // counts the samples of the topic, from 1: a gap is a loss
   double time = 0;              // [s]
   ImpactedBody a, b;            // a moves, b may be static
   Vec3 point = Vec3::Zero();    // [m] in W; of several points, weighted by their impulses

@@ -22,6 +22,7 @@ using Words = std::string_view[];
 inline constexpr Words kSceneKeys = {"world",      "profile",       "presentation", "collision",
                                      "simulation", "allow_overlap", "bodies",       "springs",
                                      "wrenches",   "pairs"};
+inline constexpr Words kFragmentKeys = {"bodies"};
 inline constexpr Words kPresentationKeys = {"frame_rate"};
 inline constexpr Words kCollisionKeys = {"impact_search",      "contact_solver", "contact_step",
                                          "contact_tolerance",  "contact_margin", "push_out_speed",
@@ -55,6 +56,7 @@ inline constexpr Words kWrenchKeys = {"body",  "force",       "torque", "frame",
 }  // namespace scene_keys
 
 inline constexpr KeyTable kSceneTable = {"scene", scene_keys::kSceneKeys, {}};
+inline constexpr KeyTable kFragmentTable = {"a fragment", scene_keys::kFragmentKeys, {}};
 inline constexpr KeyTable kPresentationTable = {"presentation", scene_keys::kPresentationKeys, {}};
 inline constexpr KeyTable kCollisionTable = {"collision", scene_keys::kCollisionKeys, {}};
 inline constexpr KeyTable kSimulationTable = {"simulation", scene_keys::kSimulationKeys, {}};

@@ -42,7 +42,18 @@ std::optional<Shape> read_round(const YamlNode& node, FaultList&, YamlReader& re
   return Round{*radius, *length};
 }
 
+// True: the shape has the key `file`, and its text may name none.
+bool refuse_file(const YamlNode& node, FaultList& faults, const YamlReader& reader) {
+  if (reader.may_name_files()) return false;
+  const auto found = std::ranges::find_if(
+      node.entries, [](const YamlNode::Entry& entry) { return entry.first->text == "file"; });
+  if (found == node.entries.end()) return false;
+  faults.add(*found->first, "a fragment may name no file");
+  return true;
+}
+
 std::optional<Shape> read_convex(const YamlNode& node, FaultList& faults, YamlReader& reader) {
+  if (refuse_file(node, faults, reader)) return std::nullopt;
   const auto fields = reader.fields(node, "convex", kConvexTable);
   if (!fields) return std::nullopt;
   if (fields->entries.size() < node.entries.size()) return std::nullopt;  // a key was refused
@@ -76,6 +87,7 @@ std::optional<Shape> read_half_space(const YamlNode& node, FaultList& faults, Ya
 }
 
 std::optional<Shape> read_mesh(const YamlNode& node, FaultList& faults, YamlReader& reader) {
+  if (refuse_file(node, faults, reader)) return std::nullopt;
   const auto fields = reader.fields(node, "mesh", kMeshTable);
   if (!fields) return std::nullopt;
   if (fields->entries.size() < node.entries.size()) return std::nullopt;  // a key was refused

@@ -10,8 +10,7 @@
 namespace poinsot {
 namespace {
 
-constexpr std::size_t kMaxRead = 10'000'000;  // values; aliases can multiply what a file holds
-constexpr std::size_t kMaxQuote = 60;         // [bytes] of a value repeated in a message
+constexpr std::size_t kMaxQuote = 60;  // [bytes] of a value repeated in a message
 
 std::string quoted(std::string_view text) {
   const bool cut = text.size() > kMaxQuote;
@@ -175,9 +174,10 @@ const YamlNode* YamlReader::required(const Fields& fields, const YamlNode& map,
 
 void YamlReader::count(const YamlNode& node, std::size_t values) {
   read_ += values;
-  if (read_ > kMaxRead)
-    throw Error(faults_.where(node) + ": a scene must not hold more than " +
-                std::to_string(kMaxRead) + " values, aliases counted");
+  if (read_ > limits_.values)
+    throw Error(faults_.where(node) + ": " + (limits_.files ? "a scene" : "a fragment") +
+                " must not hold more than " + std::to_string(limits_.values) +
+                " values, aliases counted");
 }
 
 void YamlReader::wrong_type(const YamlNode& node, std::string_view what,

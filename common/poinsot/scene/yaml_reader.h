@@ -70,9 +70,18 @@ struct Fields {
   std::vector<YamlNode::Entry> entries;
 };
 
+// What a text may do.
+struct ReadLimits {
+  std::size_t values = 10'000'000;  // at most, aliases counted
+  bool files = true;                // it may name files, which are read
+};
+
 class YamlReader {
  public:
-  explicit YamlReader(FaultList& faults) : faults_(faults) {}
+  explicit YamlReader(FaultList& faults, ReadLimits limits = {})
+      : faults_(faults), limits_(limits) {}
+
+  bool may_name_files() const { return limits_.files; }
 
   // `what` is the key as the user wrote it; it begins the message.
   std::optional<Fields> fields(const YamlNode& node, std::string_view what, const KeyTable& table);
@@ -85,7 +94,7 @@ class YamlReader {
                                  std::string_view unit);
   std::optional<Vec3> vector(const YamlNode& node, std::string_view what);
 
-  // Counts what was read at a node towards the most that a scene may hold; throws Error beyond it.
+  // Counts what was read at a node towards the most that a text may hold; throws Error beyond it.
   void count(const YamlNode& node, std::size_t values = 1);
 
   // The value of a required key of a map; a missing one is a fault of the map.
@@ -114,6 +123,7 @@ class YamlReader {
   void wrong_type(const YamlNode& node, std::string_view what, std::string_view expected);
 
   FaultList& faults_;
+  ReadLimits limits_;
   std::size_t read_ = 0;  // values, counted again for each alias
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "poinsot/base/body_id.h"
 #include "poinsot/math/types.h"
 #include "poinsot/msg/types.h"
 
@@ -55,6 +56,14 @@ inline void assign(msg::v1::Quaternion& out, const Quat& q) {
   out.y(q.y());
   out.z(q.z());
   out.w(q.w());
+}
+
+inline BodyId from(const msg::v1::BodyHandle& handle) {
+  return {handle.slot(), handle.generation()};
+}
+inline void assign(msg::v1::BodyHandle& out, BodyId id) {
+  out.slot(id.slot);
+  out.generation(id.generation);
 }
 
 // A generated enumeration to ours, which counts from 0 without holes up to `last`.

@@ -4,17 +4,16 @@
 namespace poinsot {
 namespace {
 
-void write(msg::v1::ImpactedBody& out, const ImpactedBody& in) {
-  out.body().slot(in.id.slot);
-  out.body().generation(in.id.generation);
+void write(msg::v2::ImpactedBody& out, const ImpactedBody& in) {
+  assign(out.body(), in.id);
   assign(out.linear_before(), in.linear_before);
   assign(out.angular_before(), in.angular_before);
   assign(out.linear_after(), in.linear_after);
   assign(out.angular_after(), in.angular_after);
 }
 
-ImpactedBody read(Checks& checks, const msg::v1::ImpactedBody& in) {
-  const ImpactedBody body = {.id = {in.body().slot(), in.body().generation()},
+ImpactedBody read(Checks& checks, const msg::v2::ImpactedBody& in) {
+  const ImpactedBody body = {.id = from(in.body()),
                              .linear_before = from(in.linear_before()),
                              .angular_before = from(in.angular_before()),
                              .linear_after = from(in.linear_after()),
@@ -29,10 +28,11 @@ ImpactedBody read(Checks& checks, const msg::v1::ImpactedBody& in) {
 
 }  // namespace
 
-std::string to_message(const ImpactNotice& in, msg::v1::ImpactEvent& out) {
+std::string to_message(const ImpactNotice& in, msg::v2::ImpactEvent& out) {
   out.session(in.session);
   out.epoch(in.epoch);
   out.frame_index(in.frame);
+  out.sample_number(in.sequence);
   out.time(in.time);
   write(out.a(), in.a);
   write(out.b(), in.b);
@@ -42,11 +42,12 @@ std::string to_message(const ImpactNotice& in, msg::v1::ImpactEvent& out) {
   return {};
 }
 
-std::string from_message(const msg::v1::ImpactEvent& in, ImpactNotice& out) {
+std::string from_message(const msg::v2::ImpactEvent& in, ImpactNotice& out) {
   Checks checks;
   out.session = in.session();
   out.epoch = in.epoch();
   out.frame = in.frame_index();
+  out.sequence = in.sample_number();
   out.time = in.time();
   checks.number(out.time, "time");
   out.a = read(checks, in.a());

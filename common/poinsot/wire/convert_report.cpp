@@ -9,17 +9,59 @@
 namespace poinsot {
 namespace {
 
-constexpr FrameFlag kAllFlags = FrameFlag::body_quarantined | FrameFlag::inbox_full |
-                                FrameFlag::overrun | FrameFlag::stiff | FrameFlag::crowded;
+constexpr FrameFlag kAllFlags =
+    FrameFlag::body_quarantined | FrameFlag::inbox_full | FrameFlag::overrun | FrameFlag::stiff |
+    FrameFlag::crowded | FrameFlag::input_late | FrameFlag::record_failed | FrameFlag::rate_limited;
 
 constexpr auto kLastMethod = static_cast<std::uint8_t>(kMethodNames.back().value);
 
-void assign(msg::v4::LayerTime& out, const Elapsed& in) {
+void assign(msg::v5::LayerTime& out, const Elapsed& in) {
   out.wall_s(in.wall_s);
   out.cpu_s(in.cpu_s);
 }
 
-Elapsed time(Checks& checks, const msg::v4::LayerTime& in, std::string_view name) {
+void assign(msg::v5::Spread& out, const Spread& in) {
+  out.p50(in.p50);
+  out.p99(in.p99);
+  out.max(in.max);
+}
+
+Spread spread(Checks& checks, const msg::v5::Spread& in, std::string_view name) {
+  checks.number(in.p50(), name);
+  checks.number(in.p99(), name);
+  checks.number(in.max(), name);
+  return {in.p50(), in.p99(), in.max()};
+}
+
+void put_clients(const std::vector<ClientStatus>& in, std::vector<msg::v5::ClientStatus>& out) {
+  out.resize(std::min(in.size(), kMaxClients));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].client(in[i].client);
+    out[i].alive(in[i].alive);
+    out[i].lock_step(in[i].lock_step);
+    out[i].held(in[i].held);
+    out[i].accepted(in[i].accepted);
+    out[i].refused(in[i].refused);
+    out[i].limited(in[i].limited);
+  }
+}
+
+void read_clients(Checks& checks, const std::vector<msg::v5::ClientStatus>& in,
+                  std::vector<ClientStatus>& out) {
+  checks.require(in.size() <= kMaxClients, "clients: more than " + std::to_string(kMaxClients));
+  if (!checks.ok()) return;
+  out.clear();
+  for (const msg::v5::ClientStatus& c : in)
+    out.push_back({.client = c.client(),
+                   .alive = c.alive(),
+                   .lock_step = c.lock_step(),
+                   .held = c.held(),
+                   .accepted = c.accepted(),
+                   .refused = c.refused(),
+                   .limited = c.limited()});
+}
+
+Elapsed time(Checks& checks, const msg::v5::LayerTime& in, std::string_view name) {
   checks.number(in.wall_s(), name);
   checks.number(in.cpu_s(), name);
   return {in.wall_s(), in.cpu_s()};
@@ -45,12 +87,13 @@ void read_methods(Checks& checks, const std::vector<std::uint8_t>& in, std::vect
 
 }  // namespace
 
-std::string to_message(const RunReport& in, msg::v4::RunStatus& out) {
+std::string to_message(const RunReport& in, msg::v5::RunStatus& out) {
   if (in.body_methods.size() > kMaxBodies)
     return "body_methods: more than " + std::to_string(kMaxBodies) + " in one report";
+  if (in.recording.size() > kMaxStoreName) return "recording: too long a name";
   out.session(in.session);
   out.epoch(in.epoch);
-  out.state(static_cast<msg::v4::RunStateKind>(in.state));
+  out.state(static_cast<msg::v5::RunStateKind>(in.state));
   out.frame_index(in.frame.frame);
   out.sim_time(in.frame.sim_time);
   out.bodies(in.frame.bodies);
@@ -80,11 +123,24 @@ std::string to_message(const RunReport& in, msg::v4::RunStatus& out) {
                          [](Method method) { return static_cast<std::uint8_t>(method); });
   out.flags(static_cast<std::uint32_t>(in.frame.flags));
   out.frame_rate(in.frame_rate);
+  out.time_scale(in.time_scale);
   out.real_time_factor(in.real_time_factor);
+  out.real_time_factor_window(in.real_time_factor_window);
+  assign(out.lateness(), in.lateness);
+  assign(out.frame_time(), in.frame_time);
+  out.scene_bodies(in.scene_bodies);
+  out.scene_revision(in.scene_revision);
   out.state_hash(in.state_hash);
   out.overruns(in.overruns);
   out.commands_accepted(in.commands_accepted);
   out.commands_refused(in.commands_refused);
+  out.commands_limited(in.commands_limited);
+  out.held_wrenches(in.held_wrenches);
+  out.checkpoints(in.checkpoints);
+  out.late_inputs(in.late_inputs);
+  out.streams(in.streams);
+  out.recording(in.recording);
+  put_clients(in.clients, out.clients());
   out.snapshots_dropped(in.snapshots_dropped);
   out.events_dropped(in.events_dropped);
   assign(out.presentation_time(), in.times.presentation);
@@ -95,7 +151,7 @@ std::string to_message(const RunReport& in, msg::v4::RunStatus& out) {
   return {};
 }
 
-std::string from_message(const msg::v4::RunStatus& in, RunReport& out) {
+std::string from_message(const msg::v5::RunStatus& in, RunReport& out) {
   Checks checks;
   out.session = in.session();
   out.epoch = in.epoch();
@@ -128,11 +184,26 @@ std::string from_message(const msg::v4::RunStatus& in, RunReport& out) {
   checks.require((in.flags() & ~static_cast<std::uint32_t>(kAllFlags)) == 0, "flags are unknown");
   out.frame.flags = static_cast<FrameFlag>(in.flags());
   out.frame_rate = finite(checks, in.frame_rate(), "frame_rate");
+  out.time_scale = finite(checks, in.time_scale(), "time_scale");
   out.real_time_factor = finite(checks, in.real_time_factor(), "real_time_factor");
+  out.real_time_factor_window =
+      finite(checks, in.real_time_factor_window(), "real_time_factor_window");
+  out.lateness = spread(checks, in.lateness(), "lateness");
+  out.frame_time = spread(checks, in.frame_time(), "frame_time");
+  out.scene_bodies = in.scene_bodies();
+  out.scene_revision = in.scene_revision();
   out.state_hash = in.state_hash();
   out.overruns = in.overruns();
   out.commands_accepted = in.commands_accepted();
   out.commands_refused = in.commands_refused();
+  out.commands_limited = in.commands_limited();
+  out.held_wrenches = in.held_wrenches();
+  out.checkpoints = in.checkpoints();
+  out.late_inputs = in.late_inputs();
+  out.streams = in.streams();
+  out.recording = in.recording().c_str();
+  checks.text(out.recording, "recording", kMaxStoreName);
+  read_clients(checks, in.clients(), out.clients);
   out.snapshots_dropped = in.snapshots_dropped();
   out.events_dropped = in.events_dropped();
   out.times.presentation = time(checks, in.presentation_time(), "presentation_time");

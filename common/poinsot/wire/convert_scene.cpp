@@ -48,7 +48,7 @@ Vec3 lengths(Checks& checks, const Parameters& p, std::string_view name) {
   return {length(checks, p[0], name), length(checks, p[1], name), length(checks, p[2], name)};
 }
 
-std::string put_convex(const Convex& convex, msg::v2::ShapeInfo& out) {
+std::string put_convex(const Convex& convex, msg::v3::ShapeInfo& out) {
   std::size_t indices = 0;
   for (const Convex::Face& face : convex.faces) indices += 1 + face.loop.size();
   if (convex.vertices.size() > kMaxVertices || indices > kMaxFaceIndices)
@@ -65,7 +65,7 @@ std::string put_convex(const Convex& convex, msg::v2::ShapeInfo& out) {
   return {};
 }
 
-std::string put_mesh(const Mesh& mesh, msg::v2::ShapeInfo& out) {
+std::string put_mesh(const Mesh& mesh, msg::v3::ShapeInfo& out) {
   if (mesh.vertices.size() > kMaxMeshVertices || mesh.triangles.size() > kMaxTriangles)
     return "mesh with more than " + std::to_string(kMaxMeshVertices) + " vertices or " +
            std::to_string(kMaxTriangles) + " triangles";
@@ -95,7 +95,7 @@ void fit_plane(Checks& checks, const std::vector<Vec3>& vertices, Convex::Face& 
   face.offset = face.normal.dot(middle) / static_cast<double>(face.loop.size());
 }
 
-Convex convex_from(Checks& checks, const msg::v2::ShapeInfo& in) {
+Convex convex_from(Checks& checks, const msg::v3::ShapeInfo& in) {
   Convex convex;
   checks.require(in.vertices().size() >= 4 && in.vertices().size() <= kMaxVertices,
                  "number of vertices is not between 4 and " + std::to_string(kMaxVertices));
@@ -123,7 +123,7 @@ Convex convex_from(Checks& checks, const msg::v2::ShapeInfo& in) {
   return convex;
 }
 
-Mesh mesh_from(Checks& checks, const msg::v2::ShapeInfo& in) {
+Mesh mesh_from(Checks& checks, const msg::v3::ShapeInfo& in) {
   Mesh mesh;
   checks.require(in.vertices().size() <= kMaxMeshVertices, "too many vertices");
   checks.require(!in.triangles().empty() && in.triangles().size() % 3 == 0 &&
@@ -144,26 +144,26 @@ Mesh mesh_from(Checks& checks, const msg::v2::ShapeInfo& in) {
   return mesh;
 }
 
-Shape shape_from(Checks& checks, const msg::v2::ShapeInfo& in) {
+Shape shape_from(Checks& checks, const msg::v3::ShapeInfo& in) {
   const Parameters& p = in.parameters();
   switch (in.kind()) {
-    case msg::v2::SHAPE_SPHERE:
+    case msg::v3::SHAPE_SPHERE:
       return Sphere{length(checks, p[0], "radius")};
-    case msg::v2::SHAPE_BOX:
+    case msg::v3::SHAPE_BOX:
       return Box{lengths(checks, p, "size")};
-    case msg::v2::SHAPE_CAPSULE:
+    case msg::v3::SHAPE_CAPSULE:
       return Capsule{length(checks, p[0], "radius"), length(checks, p[1], "length")};
-    case msg::v2::SHAPE_CYLINDER:
+    case msg::v3::SHAPE_CYLINDER:
       return Cylinder{length(checks, p[0], "radius"), length(checks, p[1], "length")};
-    case msg::v2::SHAPE_CONE:
+    case msg::v3::SHAPE_CONE:
       return Cone{length(checks, p[0], "radius"), length(checks, p[1], "length")};
-    case msg::v2::SHAPE_ELLIPSOID:
+    case msg::v3::SHAPE_ELLIPSOID:
       return Ellipsoid{lengths(checks, p, "semi-axes")};
-    case msg::v2::SHAPE_CONVEX:
+    case msg::v3::SHAPE_CONVEX:
       return convex_from(checks, in);
-    case msg::v2::SHAPE_MESH:
+    case msg::v3::SHAPE_MESH:
       return mesh_from(checks, in);
-    case msg::v2::SHAPE_HALF_SPACE: {
+    case msg::v3::SHAPE_HALF_SPACE: {
       const HalfSpace half_space{{p[0], p[1], p[2]}, p[3]};
       checks.number(half_space.offset, "offset");
       checks.require(std::abs(half_space.normal.squaredNorm() - 1) <= kUnitSlack,
@@ -176,11 +176,11 @@ Shape shape_from(Checks& checks, const msg::v2::ShapeInfo& in) {
   return Sphere{};
 }
 
-std::string put_shapes(const std::vector<ShapeDef>& in, std::vector<msg::v2::ShapeInfo>& out) {
+std::string put_shapes(const std::vector<ShapeDef>& in, std::vector<msg::v3::ShapeInfo>& out) {
   if (in.size() > kMaxShapes) return "more than " + std::to_string(kMaxShapes) + " shapes";
   out.resize(in.size());
   for (std::size_t i = 0; i < in.size(); ++i) {
-    out[i].kind(static_cast<msg::v2::ShapeKind>(in[i].shape.index()));
+    out[i].kind(static_cast<msg::v3::ShapeKind>(in[i].shape.index()));
     out[i].parameters(std::visit(ToParameters{}, in[i].shape));
     assign(out[i].pose(), in[i].pose);
     out[i].vertices().clear();
@@ -211,18 +211,18 @@ Mat3 inertia_from(Checks& checks, const std::array<double, 6>& v) {
 
 }  // namespace
 
-std::string to_message(const BodyInfo& in, msg::v2::BodyDescription& out) {
+std::string to_message(const BodyInfo& in, msg::v3::BodyDescription& out) {
   Checks checks;
   checks.text(in.name, "name", kMaxNameLength);
   out.slot(in.id.slot);
   out.generation(in.id.generation);
   out.session(in.session);
   out.scene_index(in.index);
-  out.scene_count(in.count);
+  out.scene_revision(in.revision);
   out.name(in.name);
-  out.kind(in.is_static      ? msg::v2::BODY_STATIC
-           : in.is_kinematic ? msg::v2::BODY_KINEMATIC
-                             : msg::v2::BODY_DYNAMIC);
+  out.kind(in.is_static      ? msg::v3::BODY_STATIC
+           : in.is_kinematic ? msg::v3::BODY_KINEMATIC
+                             : msg::v3::BODY_DYNAMIC);
   out.mass(in.mass_properties.mass);
   assign(out.center_of_mass(), in.mass_properties.center_of_mass);
   out.inertia(put_inertia(in.mass_properties.J));
@@ -234,21 +234,21 @@ std::string to_message(const BodyInfo& in, msg::v2::BodyDescription& out) {
   return checks.take();
 }
 
-std::string from_message(const msg::v2::BodyDescription& in, BodyInfo& out) {
+std::string from_message(const msg::v3::BodyDescription& in, BodyInfo& out) {
   Checks checks;
   out.session = in.session();
   out.id = {in.slot(), in.generation()};
   checks.require(static_cast<bool>(out.id), "body has no generation");
   out.index = in.scene_index();
-  out.count = in.scene_count();
-  checks.require(out.index < out.count, "scene_index is not below scene_count");
+  out.revision = in.scene_revision();
+  out.removed = false;
   out.name = in.name().c_str();
   checks.text(out.name, "name", kMaxNameLength);
-  checks.require(in.kind() == msg::v2::BODY_DYNAMIC || in.kind() == msg::v2::BODY_STATIC ||
-                     in.kind() == msg::v2::BODY_KINEMATIC,
+  checks.require(in.kind() == msg::v3::BODY_DYNAMIC || in.kind() == msg::v3::BODY_STATIC ||
+                     in.kind() == msg::v3::BODY_KINEMATIC,
                  "kind " + std::to_string(static_cast<std::uint32_t>(in.kind())) + " is unknown");
-  out.is_static = in.kind() == msg::v2::BODY_STATIC;
-  out.is_kinematic = in.kind() == msg::v2::BODY_KINEMATIC;
+  out.is_static = in.kind() == msg::v3::BODY_STATIC;
+  out.is_kinematic = in.kind() == msg::v3::BODY_KINEMATIC;
   out.mass_properties.mass = in.mass();
   checks.number(in.mass(), "mass");
   checks.require(in.mass() >= 0, "mass is negative");

@@ -4,8 +4,10 @@
 
 #include <exception>
 
+#include "poinsot/msg/contactsPubSubTypes.h"
 #include "poinsot/msg/controlPubSubTypes.h"
 #include "poinsot/msg/eventsPubSubTypes.h"
+#include "poinsot/msg/heldPubSubTypes.h"
 #include "poinsot/msg/posesPubSubTypes.h"
 #include "poinsot/msg/replyPubSubTypes.h"
 #include "poinsot/msg/reportPubSubTypes.h"
@@ -33,31 +35,39 @@ template <class Message>
 struct MessageType;
 template <>
 struct MessageType<PoseSnapshot> {
-  using Support = SafeSupport<msg::v1::PoseFramePubSubType>;
+  using Support = SafeSupport<msg::v2::PoseFramePubSubType>;
 };
 template <>
 struct MessageType<BodyInfo> {
-  using Support = SafeSupport<msg::v2::BodyDescriptionPubSubType>;
+  using Support = SafeSupport<msg::v3::BodyDescriptionPubSubType>;
 };
 template <>
 struct MessageType<RunReport> {
-  using Support = SafeSupport<msg::v4::RunStatusPubSubType>;
+  using Support = SafeSupport<msg::v5::RunStatusPubSubType>;
 };
 template <>
 struct MessageType<WrenchCommand> {
-  using Support = SafeSupport<msg::v1::BodyWrenchPubSubType>;
+  using Support = SafeSupport<msg::v2::BodyWrenchPubSubType>;
 };
 template <>
 struct MessageType<RunControl> {
-  using Support = SafeSupport<msg::v1::RunRequestPubSubType>;
+  using Support = SafeSupport<msg::v2::RunRequestPubSubType>;
 };
 template <>
 struct MessageType<Reply> {
-  using Support = SafeSupport<msg::v1::CommandReplyPubSubType>;
+  using Support = SafeSupport<msg::v2::CommandReplyPubSubType>;
 };
 template <>
 struct MessageType<ImpactNotice> {
-  using Support = SafeSupport<msg::v1::ImpactEventPubSubType>;
+  using Support = SafeSupport<msg::v2::ImpactEventPubSubType>;
+};
+template <>
+struct MessageType<ContactSnapshot> {
+  using Support = SafeSupport<msg::v1::ContactFramePubSubType>;
+};
+template <>
+struct MessageType<HeldList> {
+  using Support = SafeSupport<msg::v1::HeldWrenchesPubSubType>;
 };
 
 }  // namespace poinsot

@@ -45,6 +45,21 @@ std::string world_of(std::string_view topic) {
   return std::string(topic);
 }
 
+// A topic like poinsot/<world>/poses/<suffix>.
+bool is_pose_stream(std::string_view topic) {
+  constexpr std::string_view kPrefix = "poinsot/";
+  static_assert(kTopicName<PoseSnapshot> == "poses");
+  return topic.starts_with(kPrefix) && topic.find("/poses/", kPrefix.size()) != topic.npos;
+}
+
+// Endpoints meet if they name a partition in common, or none both.
+template <class Info>
+bool is_in(const std::string& partition, const Info& info) {
+  const std::vector<std::string> names = info.m_qos.m_partition.names();
+  if (names.empty() || partition.empty()) return names.empty() == partition.empty();
+  return std::find(names.begin(), names.end(), partition) != names.end();
+}
+
 // Numbers that no participant of ours in this process has, ascending. A participant's UDP ports
 // follow from its number, and only small numbers are greeted; Fast DDS would count a process's
 // participants without end.
@@ -67,7 +82,8 @@ void route_bus_log(BusLog log) {
   dds::Log::SetVerbosity(dds::Log::Kind::Warning);
 }
 
-std::string checked_topic_name(std::string_view world, std::string_view topic) {
+std::string checked_topic_name(std::string_view world, std::string_view topic,
+                               std::string_view suffix) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
@@ -76,7 +92,8 @@ std::string checked_topic_name(std::string_view world, std::string_view topic) {
       !std::all_of(world.begin(), world.end(), allowed))
     throw Error("world '" + std::string(world) + "': a world's name has 1 to " +
                 std::to_string(kMaxNameLength) + " letters, digits, '_' and '-'");
-  return topic_name(world, topic);
+  const std::string name = topic_name(world, topic);
+  return suffix.empty() ? name : name + "/" + std::string(suffix);
 }
 
 std::vector<std::string> WorldDirectory::worlds() const {
@@ -89,7 +106,7 @@ std::vector<std::string> WorldDirectory::worlds() const {
 void WorldDirectory::on_publisher_discovery(dds::DomainParticipant*,
                                             rtps::WriterDiscoveryInfo&& info) {
   const std::string world = world_of(info.info.topicName().c_str());
-  if (world.empty()) return;
+  if (world.empty() || !is_in(partition_, info.info)) return;
   const std::lock_guard lock(mutex_);
   if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER)
     worlds_.erase(info.info.guid());
@@ -97,17 +114,40 @@ void WorldDirectory::on_publisher_discovery(dds::DomainParticipant*,
     worlds_[info.info.guid()] = world;
 }
 
+std::vector<std::string> WorldDirectory::pose_streams(std::string_view world) const {
+  const std::string prefix = topic_name(world, kTopicName<PoseSnapshot>) + "/";
+  std::set<std::string> suffixes;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [reader, topic] : streams_)
+    if (topic.starts_with(prefix)) suffixes.insert(topic.substr(prefix.size()));
+  return {suffixes.begin(), suffixes.end()};
+}
+
+void WorldDirectory::on_subscriber_discovery(dds::DomainParticipant*,
+                                             rtps::ReaderDiscoveryInfo&& info) {
+  const std::string topic = info.info.topicName().c_str();
+  if (!is_pose_stream(topic) || !is_in(partition_, info.info)) return;
+  const std::lock_guard lock(mutex_);
+  if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER)
+    streams_.erase(info.info.guid());
+  else
+    streams_[info.info.guid()] = topic;
+  ++stream_changes_;
+}
+
 void WorldDirectory::on_participant_discovery(dds::DomainParticipant*,
                                               rtps::ParticipantDiscoveryInfo&& info) {
   using Info = rtps::ParticipantDiscoveryInfo;
   if (info.status != Info::REMOVED_PARTICIPANT && info.status != Info::DROPPED_PARTICIPANT) return;
   const std::lock_guard lock(mutex_);
-  std::erase_if(worlds_, [&](const auto& entry) {
+  const auto is_gone = [&](const auto& entry) {
     return entry.first.guidPrefix == info.info.m_guid.guidPrefix;
-  });
+  };
+  std::erase_if(worlds_, is_gone);
+  if (std::erase_if(streams_, is_gone) > 0) ++stream_changes_;
 }
 
-BusCore::BusCore(const BusOptions& options) {
+BusCore::BusCore(const BusOptions& options) : directory_(options.partition) {
   if (options.domain < 0 || options.domain > kMaxDomain)
     throw Error("domain " + std::to_string(options.domain) + " is not between 0 and " +
                 std::to_string(kMaxDomain));
@@ -124,8 +164,14 @@ BusCore::BusCore(const BusOptions& options) {
                                                &directory_, dds::StatusMask::none());
   }
   if (participant_ != nullptr) {
-    publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
-    subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+    dds::PublisherQos of_publisher = participant_->get_default_publisher_qos();
+    dds::SubscriberQos of_subscriber = participant_->get_default_subscriber_qos();
+    if (!options.partition.empty()) {
+      of_publisher.partition().push_back(options.partition.c_str());
+      of_subscriber.partition().push_back(options.partition.c_str());
+    }
+    publisher_ = participant_->create_publisher(of_publisher);
+    subscriber_ = participant_->create_subscriber(of_subscriber);
   }
   if (publisher_ == nullptr || subscriber_ == nullptr)
     throw Error("domain " + std::to_string(options.domain) + ": the bus cannot be joined");
@@ -157,6 +203,12 @@ Participant& Participant::operator=(Participant&&) noexcept = default;
 
 std::vector<std::string> Participant::worlds() const {
   return impl_->core->directory().worlds();
+}
+std::vector<std::string> Participant::pose_streams(std::string_view world) const {
+  return impl_->core->directory().pose_streams(world);
+}
+std::uint64_t Participant::pose_stream_changes() const {
+  return impl_->core->directory().pose_stream_changes();
 }
 
 }  // namespace poinsot

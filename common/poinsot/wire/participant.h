@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace poinsot {
@@ -19,6 +21,10 @@ struct BusOptions {
   int domain = kDefaultDomain;  // 0 … kMaxDomain
   bool lan = false;             // false: this host only
   std::size_t bodies = 0;       // that this side publishes: sizes the shared-memory segment
+  std::string partition = {};   // DDS partition: who has another one is not met; empty: none
+  // "host:port" of a discovery server (`fastdds discovery`), which makes participants known to one
+  // another instead of greetings; empty: none.
+  std::string discovery_server = {};
 };
 
 enum class BusLogLevel { error, warning };
@@ -42,6 +48,11 @@ class Participant {
 
   // World names of the daemons discovered so far, sorted. Discovery is asynchronous.
   std::vector<std::string> worlds() const;
+
+  // What follows poinsot/<world>/poses/ in the names of topics that somebody reads, sorted, each
+  // once (stream_name.h). `changes` is another number whenever the answer may be another one.
+  std::vector<std::string> pose_streams(std::string_view world) const;
+  std::uint64_t pose_stream_changes() const;
 
   struct Impl;
   Impl& impl() const { return *impl_; }

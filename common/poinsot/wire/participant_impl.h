@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -21,19 +23,29 @@
 
 namespace poinsot {
 
-// Who publishes poinsot/<world>/report: kept up to date from discovery, on a thread of Fast DDS.
+// Who publishes poinsot/<world>/report, and who reads filtered streams of poses: kept up to date
+// from discovery, on a thread of Fast DDS.
 class WorldDirectory : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
+  explicit WorldDirectory(std::string partition) : partition_(std::move(partition)) {}
+
   std::vector<std::string> worlds() const;
+  std::vector<std::string> pose_streams(std::string_view world) const;
+  std::uint64_t pose_stream_changes() const { return stream_changes_; }
 
   void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
                               eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) override;
+  void on_subscriber_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
+                               eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) override;
   void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
                                 eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
 
  private:
   mutable std::mutex mutex_;
-  std::map<eprosima::fastrtps::rtps::GUID_t, std::string> worlds_;  // by writer
+  std::string partition_;
+  std::map<eprosima::fastrtps::rtps::GUID_t, std::string> worlds_;   // by writer
+  std::map<eprosima::fastrtps::rtps::GUID_t, std::string> streams_;  // topic, by reader
+  std::atomic<std::uint64_t> stream_changes_ = 0;
 };
 
 // Owns the Fast DDS participant. Endpoints are made through it and removed by themselves.
@@ -64,8 +76,9 @@ struct Participant::Impl {
   std::shared_ptr<BusCore> core;
 };
 
-// "poinsot/<world>/<topic>"; throws Error if the world's name has other characters than letters,
-// digits, '_' and '-'.
-std::string checked_topic_name(std::string_view world, std::string_view topic);
+// "poinsot/<world>/<topic>", or with "/<suffix>"; throws Error if the world's name has other
+// characters than letters, digits, '_' and '-'.
+std::string checked_topic_name(std::string_view world, std::string_view topic,
+                               std::string_view suffix = {});
 
 }  // namespace poinsot

@@ -16,8 +16,9 @@ template <class Message>
 struct Publisher<Message>::Impl {
   using Support = typename MessageType<Message>::Support;
 
-  Impl(std::shared_ptr<BusCore> bus, std::string_view world) : core(std::move(bus)) {
-    const std::string name = checked_topic_name(world, kTopicName<Message>);
+  Impl(std::shared_ptr<BusCore> bus, std::string_view world, std::string_view suffix)
+      : core(std::move(bus)) {
+    const std::string name = checked_topic_name(world, kTopicName<Message>, suffix);
     dds::Topic* topic = core->topic(name, dds::TypeSupport(new Support));
     dds::DataWriterQos qos = core->publisher()->get_default_datawriter_qos();
     set_writer_qos(topic_qos(kTopicName<Message>), qos);
@@ -36,8 +37,9 @@ struct Publisher<Message>::Impl {
 };
 
 template <class Message>
-Publisher<Message>::Publisher(Participant& participant, std::string_view world)
-    : impl_(std::make_unique<Impl>(participant.impl().core, world)) {}
+Publisher<Message>::Publisher(Participant& participant, std::string_view world,
+                              std::string_view suffix)
+    : impl_(std::make_unique<Impl>(participant.impl().core, world, suffix)) {}
 template <class Message>
 Publisher<Message>::~Publisher() = default;
 template <class Message>
@@ -49,6 +51,13 @@ template <class Message>
 bool Publisher<Message>::write(const Message& message) {
   if (!to_message(message, impl_->sample).empty()) return false;
   return impl_->writer->write(&impl_->sample);
+}
+
+template <class Message>
+bool Publisher<Message>::remove(const Message& message) {
+  if (!to_message(message, impl_->sample).empty()) return false;
+  return impl_->writer->dispose(&impl_->sample, dds::InstanceHandle_t()) ==
+         eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 }
 
 template <class Message>
@@ -65,5 +74,7 @@ template class Publisher<WrenchCommand>;
 template class Publisher<RunControl>;
 template class Publisher<Reply>;
 template class Publisher<ImpactNotice>;
+template class Publisher<ContactSnapshot>;
+template class Publisher<HeldList>;
 
 }  // namespace poinsot

@@ -14,14 +14,18 @@ namespace poinsot {
 template <class Message>
 class Publisher {
  public:
-  // Throws Error if the endpoint cannot be made.
-  Publisher(Participant& participant, std::string_view world);
+  // Throws Error if the endpoint cannot be made. A suffix makes another topic of the same type:
+  // poinsot/<world>/<topic>/<suffix>.
+  Publisher(Participant& participant, std::string_view world, std::string_view suffix = {});
   ~Publisher();
   Publisher(Publisher&&) noexcept;
   Publisher& operator=(Publisher&&) noexcept;
 
   // False if the bus refused the sample. Never blocks for a slow or stopped reader.
   bool write(const Message& message);
+
+  // Of a keyed topic: takes the instance of this key back; late joiners do not get it any more.
+  bool remove(const Message& message);
 
   // Readers matched now.
   int readers() const;

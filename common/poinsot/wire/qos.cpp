@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include <fastdds/rtps/transport/TransportInterface.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -9,6 +10,7 @@
 #include <fastrtps/utils/IPLocator.h>
 
 #include "poinsot/base/check.h"
+#include "poinsot/base/error.h"
 #include "poinsot/base/limits.h"
 #include "poinsot/wire/queue_number.h"
 
@@ -23,7 +25,7 @@ constexpr int kBodies = static_cast<int>(kMaxBodies);
 
 // Poses: a writer depth of 4 survives the repair of a lost fragment; the reader's second of frames
 // is what a busy program may fall behind without a gap. Commands: see the reader that keeps all.
-constexpr std::array<TopicQos, 7> kTopics = {{
+constexpr std::array<TopicQos, 9> kTopics = {{
     // topic    late joiners  writer  reader  keeps all  instances
     {"poses", false, 4, 60, false, 1},
     {"scene", true, 1, 1, false, kBodies},
@@ -32,6 +34,8 @@ constexpr std::array<TopicQos, 7> kTopics = {{
     {"control", false, 256, 1024, true, 1},
     {"reply", false, 1024, 1024, false, 1},
     {"events", false, 1000, 1000, false, 1},
+    {"contacts", false, 4, 60, false, 1},
+    {"held", false, 1, 1, false, 1},
 }};
 
 constexpr std::uint32_t kMegabyte = 1u << 20;
@@ -39,7 +43,10 @@ constexpr std::uint32_t kPoseBytes = 112;      // of one body in a frame
 constexpr std::uint32_t kFramesInSegment = 6;  // fewer, and frames arrive by repair only
 constexpr std::uint32_t kMaxMessage = 65500;   // [bytes] one datagram; larger samples are fragments
 constexpr std::uint32_t kSocketBuffer = 4 * kMegabyte;
+constexpr int kLeaseMs = 3000;  // who is not heard of for so long is gone
 constexpr const char* kLoopback = "127.0.0.1";
+// Of the server with number 0, as `fastdds discovery -i 0` starts it.
+constexpr const char* kServerPrefix = "44.53.00.5f.45.50.52.4f.53.49.4d.41";
 constexpr const char* kMulticast = "239.255.0.1";  // RTPS default, section 9.6.1.4.1
 
 Duration_t milliseconds(int n) {
@@ -55,11 +62,32 @@ dds::ResourceLimitsQosPolicy limits(const TopicQos& topic, int depth) {
   return limits;
 }
 
-void add_peer(dds::DomainParticipantQos& qos, const char* address, std::uint32_t port) {
-  eprosima::fastrtps::rtps::Locator_t peer;
-  eprosima::fastrtps::rtps::IPLocator::setIPv4(peer, address);
-  peer.port = port;  // 0: the ports of the first kMaxLocalParticipants participants
-  qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+// Port 0: the ports of the first kMaxLocalParticipants participants.
+eprosima::fastrtps::rtps::Locator_t udp_locator(const char* address, std::uint32_t port) {
+  eprosima::fastrtps::rtps::Locator_t locator;
+  eprosima::fastrtps::rtps::IPLocator::setIPv4(locator, address);
+  locator.port = port;
+  return locator;
+}
+
+// Discovery through a server that passes everything on: worlds are found by their topics.
+void set_discovery_server(const std::string& address,
+                          eprosima::fastrtps::rtps::DiscoverySettings& discovery) {
+  const std::size_t colon = address.rfind(':');
+  int port = 0;
+  const char* const last = address.data() + address.size();
+  if (colon != std::string::npos) std::from_chars(address.data() + colon + 1, last, port);
+  eprosima::fastrtps::rtps::Locator_t locator;
+  if (port <= 0 || port > 65535 ||
+      !eprosima::fastrtps::rtps::IPLocator::setIPv4(locator, address.substr(0, colon)))
+    throw Error("discovery server '" + address +
+                "': give it as address:port, like 127.0.0.1:11811");
+  locator.port = static_cast<std::uint32_t>(port);
+  rtps::RemoteServerAttributes server;
+  server.metatrafficUnicastLocatorList.push_back(locator);
+  server.ReadguidPrefix(kServerPrefix);
+  discovery.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::SUPER_CLIENT;
+  discovery.m_DiscoveryServers.push_back(server);
 }
 
 // Only the transport knows what marks a queue as one of this host.
@@ -132,16 +160,21 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
   add_queue(*shared_memory, wire.default_unicast_locator_list);
 
   auto& discovery = wire.builtin.discovery_config;
-  discovery.leaseDuration = milliseconds(5000);
+  discovery.leaseDuration = milliseconds(kLeaseMs);
   // Fast DDS 2.9.1 announces a newcomer before it listens: a quick answer is lost, and it waits for
   // the next announcement.
   discovery.leaseDuration_announcementperiod = milliseconds(250);
   discovery.initial_announcements = {10, milliseconds(50)};
   // Loopback need not be able to multicast: participants of this host are greeted one by one.
-  add_peer(qos, kLoopback, 0);
-  if (options.lan)
-    add_peer(qos, kMulticast,
-             wire.port.getMulticastPort(static_cast<std::uint32_t>(options.domain)));
+  wire.builtin.initialPeersList.push_back(udp_locator(kLoopback, 0));
+  if (!options.discovery_server.empty()) set_discovery_server(options.discovery_server, discovery);
+  if (!options.lan) return;
+  // Those of other hosts hear of us there, and we of them: with the unicast locators of our own,
+  // Fast DDS does not listen there by itself.
+  const auto everyone = udp_locator(
+      kMulticast, wire.port.getMulticastPort(static_cast<std::uint32_t>(options.domain)));
+  wire.builtin.initialPeersList.push_back(everyone);
+  wire.builtin.metatrafficMulticastLocatorList.push_back(everyone);
 }
 
 }  // namespace poinsot

@@ -5,6 +5,7 @@
 #include <fastdds/dds/core/condition/GuardCondition.hpp>
 #include <fastdds/dds/core/condition/WaitSet.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
 #include "poinsot/base/check.h"
@@ -19,27 +20,55 @@ namespace poinsot {
 namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
+namespace {
+
+WriterKey key_of(const dds::InstanceHandle_t& handle) {
+  WriterKey key{};
+  for (std::size_t i = 0; i < key.size(); ++i) key[i] = handle.value[i];
+  return key;
+}
+
+// Tells of writers that are matched no longer.
+struct WriterWatch : dds::DataReaderListener {
+  explicit WriterWatch(std::function<void(const WriterKey&)> on_lost) : lost(std::move(on_lost)) {}
+  void on_subscription_matched(dds::DataReader*,
+                               const dds::SubscriptionMatchedStatus& status) override {
+    if (status.current_count_change < 0) lost(key_of(status.last_publication_handle));
+  }
+  std::function<void(const WriterKey&)> lost;
+};
+
+}  // namespace
+
 template <class Message>
 struct Subscriber<Message>::Impl {
   using Support = typename MessageType<Message>::Support;
 
-  Impl(std::shared_ptr<BusCore> bus, std::string_view world) : core(std::move(bus)) {
-    const std::string name = checked_topic_name(world, kTopicName<Message>);
+  Impl(std::shared_ptr<BusCore> bus, std::string_view world, std::string_view suffix,
+       WriterLost on_lost)
+      : core(std::move(bus)), watch(std::move(on_lost)) {
+    const std::string name = checked_topic_name(world, kTopicName<Message>, suffix);
     dds::Topic* topic = core->topic(name, dds::TypeSupport(new Support));
     dds::DataReaderQos qos = core->subscriber()->get_default_datareader_qos();
     set_reader_qos(topic_qos(kTopicName<Message>), qos);
-    reader = core->subscriber()->create_datareader(topic, qos);
+    reader = watch.lost ? core->subscriber()->create_datareader(
+                              topic, qos, &watch, dds::StatusMask::subscription_matched())
+                        : core->subscriber()->create_datareader(topic, qos);
     if (reader == nullptr) throw Error("topic " + name + ": cannot be read");
     reader->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
   }
   ~Impl() {
-    if (reader != nullptr) core->subscriber()->delete_datareader(reader);
+    if (reader == nullptr) return;
+    reader->set_listener(nullptr);
+    core->subscriber()->delete_datareader(reader);
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
   std::shared_ptr<BusCore> core;
+  WriterWatch watch;
   dds::DataReader* reader = nullptr;
+  WriterKey writer{};
   typename Support::type sample;  // reused
 };
 
@@ -55,11 +84,31 @@ Malformed malformed(const Type& sample, std::string reason) {
   return result;
 }
 
+template <class Message>
+bool was_removed(const dds::SampleInfo&, Message&) {
+  return false;
+}
+// The handle of an instance whose key takes at most 16 bytes is the key, big-endian (DDSI-RTPS 2.3,
+// 9.6.3.8): slot and generation.
+bool was_removed(const dds::SampleInfo& info, BodyInfo& body) {
+  if (info.instance_state != dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE) return false;
+  const auto word = [&info](int first) {
+    std::uint32_t value = 0;
+    for (int i = first; i < first + 4; ++i) value = value << 8 | info.instance_handle.value[i];
+    return value;
+  };
+  body = {};
+  body.id = {word(0), word(4)};
+  body.removed = true;
+  return static_cast<bool>(body.id);
+}
+
 }  // namespace
 
 template <class Message>
-Subscriber<Message>::Subscriber(Participant& participant, std::string_view world)
-    : impl_(std::make_unique<Impl>(participant.impl().core, world)) {}
+Subscriber<Message>::Subscriber(Participant& participant, std::string_view world,
+                                std::string_view suffix, WriterLost lost)
+    : impl_(std::make_unique<Impl>(participant.impl().core, world, suffix, std::move(lost))) {}
 template <class Message>
 Subscriber<Message>::~Subscriber() = default;
 template <class Message>
@@ -72,12 +121,21 @@ bool Subscriber<Message>::take(Message& message,
                                const std::function<void(const Malformed&)>& refused) {
   dds::SampleInfo info;
   while (impl_->reader->take_next_sample(&impl_->sample, &info) == ReturnCode_t::RETCODE_OK) {
-    if (!info.valid_data) continue;  // a writer left
+    impl_->writer = key_of(info.publication_handle);
+    if (!info.valid_data) {  // a writer left, or an instance was taken back
+      if (was_removed(info, message)) return true;
+      continue;
+    }
     std::string reason = from_message(impl_->sample, message);
     if (reason.empty()) return true;
     if (refused) refused(malformed(impl_->sample, std::move(reason)));
   }
   return false;
+}
+
+template <class Message>
+const WriterKey& Subscriber<Message>::writer() const {
+  return impl_->writer;
 }
 
 template <class Message>
@@ -135,6 +193,8 @@ template class Subscriber<WrenchCommand>;
 template class Subscriber<RunControl>;
 template class Subscriber<Reply>;
 template class Subscriber<ImpactNotice>;
+template class Subscriber<ContactSnapshot>;
+template class Subscriber<HeldList>;
 template void Waiter::attach(Subscriber<PoseSnapshot>&);
 template void Waiter::attach(Subscriber<BodyInfo>&);
 template void Waiter::attach(Subscriber<RunReport>&);
@@ -142,5 +202,7 @@ template void Waiter::attach(Subscriber<WrenchCommand>&);
 template void Waiter::attach(Subscriber<RunControl>&);
 template void Waiter::attach(Subscriber<Reply>&);
 template void Waiter::attach(Subscriber<ImpactNotice>&);
+template void Waiter::attach(Subscriber<ContactSnapshot>&);
+template void Waiter::attach(Subscriber<HeldList>&);
 
 }  // namespace poinsot

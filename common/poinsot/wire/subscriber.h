@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -22,11 +23,19 @@ struct Malformed {
   std::string reason;
 };
 
+// Who wrote a sample: unique among the endpoints on the bus.
+using WriterKey = std::array<std::uint8_t, 16>;
+
 template <class Message>
 class Subscriber {
  public:
-  // Throws Error if the endpoint cannot be made.
-  Subscriber(Participant& participant, std::string_view world);
+  // Told of each writer that left or was not heard of for its lease. Called by a thread of the bus:
+  // it must be quick and not use the subscriber.
+  using WriterLost = std::function<void(const WriterKey&)>;
+
+  // Throws Error if the endpoint cannot be made. Suffix: as of Publisher.
+  Subscriber(Participant& participant, std::string_view world, std::string_view suffix = {},
+             WriterLost lost = {});
   ~Subscriber();
   Subscriber(Subscriber&&) noexcept;
   Subscriber& operator=(Subscriber&&) noexcept;
@@ -34,6 +43,8 @@ class Subscriber {
   // Takes the next sample into `message` (reused, so that a steady stream does not allocate).
   // Malformed samples go to `refused`, if given, and are skipped. False when there is none.
   bool take(Message& message, const std::function<void(const Malformed&)>& refused = {});
+  // Of the sample taken last, malformed ones included.
+  const WriterKey& writer() const;
 
   // Writers matched now.
   int writers() const;

@@ -7,7 +7,9 @@
 #include <string_view>
 
 #include "poinsot/protocol/body_info.h"
+#include "poinsot/protocol/contact_snapshot.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/held_list.h"
 #include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 #include "poinsot/protocol/run_control.h"
@@ -31,6 +33,10 @@ template <>
 inline constexpr std::string_view kTopicName<Reply> = "reply";
 template <>
 inline constexpr std::string_view kTopicName<ImpactNotice> = "events";
+template <>
+inline constexpr std::string_view kTopicName<ContactSnapshot> = "contacts";
+template <>
+inline constexpr std::string_view kTopicName<HeldList> = "held";
 
 inline std::string topic_name(std::string_view world, std::string_view topic) {
   return "poinsot/" + std::string(world) + "/" + std::string(topic);

@@ -54,6 +54,11 @@ struct Aabb {
     return (low.array() <= other.low.array()).all() && (other.high.array() <= high.array()).all();
   }
   Aabb grown(double by) const { return {low.array() - by, high.array() + by}; }
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(low, high);
+  }
 };
 Aabb bounds(const Collider& collider, const Pose& pose);
 

@@ -39,6 +39,13 @@ struct CollisionReport {
   double contact_residual = 0;
   std::uint32_t solver_iterations = 0;  // of convex_newton, all solves together
   std::uint32_t unconverged = 0;        // solves of it that did not reach its tolerance
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(contacts, max_penetration, impact_loss, push_out_energy, islands, restarts, searches,
+         search_poses, search_gaps, impacts, crowded, asleep, soft_bodies, direct_bodies,
+         contact_residual, solver_iterations, unconverged);
+  }
 };
 
 // What one body exerts on another at a point, as last solved. Sleeping pairs keep theirs.
@@ -99,7 +106,8 @@ class CollisionLayer {
   double energy_error() { return energy_balance().error; }
 
   // Changes from outside, between frames. Each wakes what it touches and leaves the courses of all
-  // other bodies alone, to the bit; the energy balance starts afresh.
+  // other bodies alone, to the bit. The energy balance takes what they bring, or take away, as
+  // given; that of a kick is work.
 
   // Adds a body that is valid in itself and with the others (its name and generation included), in
   // the first absent column or a new one.
@@ -107,7 +115,7 @@ class CollisionLayer {
   // Its column becomes absent: no shape, no mass, found by nobody. Springs to it go with it.
   void remove(Eigen::Index i);
   // Pose of B in W and velocity of the centre of mass of a dynamic or kinematic body; of a static
-  // one the pose.
+  // one the pose. What overlaps then is pushed out at bounded speed. A frozen body moves again.
   void set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity);
   // Changes P and L of a dynamic body at once: impulse [N·s] and angular impulse [N·m·s] about the
   // centre of mass, in W.
@@ -130,7 +138,11 @@ class CollisionLayer {
   const CollisionTimes& times() const { return times_; }
 
  private:
+  template <class Archive>
+  void archive(Archive& with);
   void rebase_energy();
+  double energy_about(Eigen::Index i) const;
+  void take_as_given(double energy);
   double expected_energy() const;  // [J] from the start, the work and the losses
 
   struct Frame;  // keeps geometry out of the layers above
@@ -138,7 +150,8 @@ class CollisionLayer {
   CollisionReport report_;
   std::vector<ImpactEvent> impacts_;
   EnergyScale energy_scale_;
-  double start_energy_;  // [J]
+  bool scale_is_old_ = false;  // bodies came, went or were moved since
+  double start_energy_;        // [J]
   std::uint32_t quarantined_ = 0;
   CollisionTimes times_;
   CpuShare cpu_share_;

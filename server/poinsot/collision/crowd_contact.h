@@ -18,6 +18,11 @@ struct CrowdContact {
     double normal_impulse = 0;  // [N·s] of the last sub-step
     double usual_impulse = 0;   // [N·s] its long mean
     std::uint32_t feature = kNearestFeature;
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(on_a, on_b, normal_impulse, usual_impulse, feature);
+    }
   };
 
   Pose measured;       // of B's shape in A's frame when the points were last found …
@@ -32,6 +37,13 @@ struct CrowdContact {
 
   void forget();  // as if it had never been near
   void hash_into(Hash64& hash) const;
+  template <class Archive>
+  void archive(Archive& with) {
+    with(measured, margin, until, h);
+    with.choice(count, Manifold::kMaxPoints);
+    with(normal_in_a, friction_in_a, twist_impulse);
+    for (int k = 0; k < count; ++k) with(points[static_cast<std::size_t>(k)]);
+  }
 };
 
 // Brings a contact to where its shapes are now: points nearer than `margin` [m], and some beyond.

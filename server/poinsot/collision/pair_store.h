@@ -28,6 +28,12 @@ struct PairPoint {
   double approach = 0;                   // [m/s] at which it was coming when it was slowed
   double normal_impulse = 0;             // [N·s] of the last sub-step
   Vec3 friction_impulse = Vec3::Zero();  // [N·s] in W
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(position, normal, anchor_a, anchor_b, normal_in_a, offset, gap, approach, normal_impulse,
+         friction_impulse);
+  }
 };
 
 struct PairContact {
@@ -36,6 +42,11 @@ struct PairContact {
   Pose measured;       // of B's shape in A's frame when the points were last found …
   double margin = -1;  // [m] … and the margin they were found with; < 0: never
   mutable std::uint64_t digest = 0;  // of all of it that a continuation depends on; 0: to be formed
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(points, last_h, measured, margin);
+  }
 };
 
 // What all pairs are asked for in every frame comes first, in one line of the cache.
@@ -114,10 +125,24 @@ class PairStore {
   }
   void make_crowd_contact(PairRecord& record);
 
+  // Nothing of what happened to the pair until now counts any more.
+  void forget(PairRecord& record);
+
+  // Bodies come and go. One more body; `count` new colliders take the numbers from `first` on, and
+  // those that had them the next; so many colliders go, with their records.
+  void add_body() { first_.push_back(first_.back()); }
+  void insert_colliders(int first, int count);
+  void erase_colliders(int first, int count);
+
   void hash_into(Hash64& hash) const;
+  // The records and what they know; contacts are packed anew in their order.
+  template <class Archive>
+  void archive(Archive& with, std::span<const Collider> colliders);
 
  private:
   void drop(const PairRecord& record);
+  template <class Archive>
+  void archive_record(Archive& with, PairRecord& record);
   void index();
 
   std::vector<PairRecord> records_, next_;

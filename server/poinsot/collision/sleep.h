@@ -17,6 +17,10 @@ class Sleep {
  public:
   explicit Sleep(std::size_t bodies);
 
+  void fit(std::size_t bodies);
+  // Body i, which is awake, begins anew.
+  void forget(Eigen::Index i);
+
   // A frame is over.
   void next_frame() { ++frame_; }
   // Whether it is worth while to ask if the island is in equilibrium; now and then only.
@@ -30,6 +34,8 @@ class Sleep {
 
   std::uint32_t asleep() const { return asleep_; }
   void hash_into(Hash64& hash) const;
+  template <class Archive>
+  void archive(Archive& with, const CollisionState& state);
 
  private:
   void lay_down(CollisionState& state, Eigen::Index i, int group);
@@ -37,6 +43,11 @@ class Sleep {
   struct Before {
     Course::Column y = Course::Column::Zero();
     HeldWrench held;
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(y, held);
+    }
   };
   std::uint64_t frame_ = 0;
   std::vector<double>

@@ -1,44 +1,11 @@
 #include "poinsot/presentation/command_check.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string_view>
+#include <string>
 
 namespace poinsot {
 namespace {
-
-std::string text(const Vec3& v) {
-  char buffer[96];
-  std::snprintf(buffer, sizeof buffer, "(%g, %g, %g)", v.x(), v.y(), v.z());
-  return buffer;
-}
-
-std::string text(double x) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", x);
-  return buffer;
-}
-
-std::optional<Refusal> invalid(std::string reason) {
-  return Refusal{ResultCode::invalid_value, std::move(reason)};
-}
-
-std::optional<Refusal> check_vector(std::string_view what, const Vec3& v, std::string_view unit,
-                                    double limit) {
-  const std::string received =
-      std::string(what) + " is " + text(v) + " " + std::string(unit) + ": ";
-  if (!v.allFinite()) return invalid(received + "every component must be finite");
-  if (v.cwiseAbs().maxCoeff() > limit)
-    return invalid(received + "no component may exceed " + text(limit));
-  return std::nullopt;
-}
-
-template <class Enum>
-std::optional<Refusal> check_enumerator(std::string_view what, Enum value, Enum last) {
-  if (value <= last) return std::nullopt;
-  return invalid(std::string(what) + " is " + std::to_string(static_cast<int>(value)) +
-                 ": the largest known value is " + std::to_string(static_cast<int>(last)));
-}
 
 std::optional<Refusal> check_duration(const WrenchCommand& command) {
   const std::string received = "duration is " + std::to_string(command.duration_ns) + " ns: ";
@@ -48,10 +15,28 @@ std::optional<Refusal> check_duration(const WrenchCommand& command) {
   return std::nullopt;
 }
 
+std::optional<Refusal> check_push(const WrenchCommand& command) {
+  const bool impulse = command.kind == WrenchKind::impulse;
+  if (auto r = check_vector("force", command.force, impulse ? "N·s" : "N", kMaxWrench)) return r;
+  return check_vector("torque", command.torque, impulse ? "N·m·s" : "N·m", kMaxWrench);
+}
+
+std::optional<Refusal> check_tether(const WrenchCommand& command) {
+  if (auto r = check_vector("target", command.target, "m", kMaxPoint)) return r;
+  if (auto r = check_coefficient("stiffness", command.stiffness, "N/m", kMaxStiffness)) return r;
+  return check_coefficient("damping", command.damping, "N·s/m", kMaxStiffness);
+}
+
+bool is_store_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-' || c == '.';
+}
+
 }  // namespace
 
 std::optional<Refusal> check_values(const WrenchCommand& command) {
   if (command.seq == 0) return invalid("seq is 0: a client counts from 1");
+  if (auto r = check_enumerator("kind", command.kind, WrenchKind::tether)) return r;
   if (auto r = check_enumerator("hold", command.hold, Hold::clear)) return r;
   if (auto r = check_enumerator("axes", command.axes, Axes::body)) return r;
   if (auto r = check_enumerator("point_frame", command.point_frame, PointFrame::body)) return r;
@@ -60,12 +45,52 @@ std::optional<Refusal> check_values(const WrenchCommand& command) {
                    std::to_string(kMaxFrame) + " is accepted");
   if (command.hold == Hold::clear) return std::nullopt;  // carries no wrench
 
-  if (auto r = check_vector("force", command.force, "N", kMaxWrench)) return r;
-  if (auto r = check_vector("torque", command.torque, "N·m", kMaxWrench)) return r;
+  if (auto r = command.kind == WrenchKind::tether ? check_tether(command) : check_push(command))
+    return r;
   if (command.point_frame != PointFrame::center_of_mass)
     if (auto r = check_vector("point", command.point, "m", kMaxPoint)) return r;
+  if (command.kind == WrenchKind::impulse && command.hold != Hold::frame)
+    return invalid("an impulse acts at the start of one frame: hold must be frame");
   if (command.hold == Hold::duration) return check_duration(command);
   return std::nullopt;
+}
+
+std::optional<Refusal> check_epoch(std::uint32_t meant, std::uint32_t epoch) {
+  if (meant == 0 || meant == epoch) return std::nullopt;
+  return Refusal{ResultCode::wrong_epoch, "meant for epoch " + std::to_string(meant) + "; epoch " +
+                                              std::to_string(epoch) + " runs"};
+}
+
+std::optional<Refusal> check_scope(const RunControl& control) {
+  if (control.scope <= kMaxResetScope) return std::nullopt;
+  return invalid("scope is " + std::to_string(control.scope) + ": the sum of all scopes is " +
+                 std::to_string(kMaxResetScope));
+}
+
+std::optional<Refusal> check_state(const RunControl& control) {
+  if (!control.sets_position && !control.sets_orientation && !control.sets_linear &&
+      !control.sets_angular)
+    return invalid("nothing is set: neither position, orientation nor velocities");
+  if (control.sets_position)
+    if (auto r = check_vector("position", control.position, "m", kMaxPoint)) return r;
+  if (control.sets_linear)
+    if (auto r = check_vector("linear_velocity", control.linear_velocity, "m/s", kMaxSpeed))
+      return r;
+  if (control.sets_angular)
+    if (auto r = check_vector("angular_velocity", control.angular_velocity, "rad/s", kMaxSpeed))
+      return r;
+  if (!control.sets_orientation) return std::nullopt;
+  const double norm = control.orientation.norm();
+  if (std::abs(norm - 1) <= kUnitSlack) return std::nullopt;
+  return invalid("orientation must be a unit quaternion, has norm " + text(norm));
+}
+
+std::optional<Refusal> check_store_name(std::string_view name) {
+  const bool good = !name.empty() && name.size() <= kMaxStoreName && name.front() != '.' &&
+                    std::ranges::all_of(name, is_store_letter);
+  if (good) return std::nullopt;
+  return invalid("a name must be 1 to " + std::to_string(kMaxStoreName) +
+                 " letters, digits, '_', '-' or '.', not beginning with '.'");
 }
 
 }  // namespace poinsot

@@ -1,26 +1,35 @@
-// Is a wrench command possible at all? What can be said from its fields alone, without a world.
+// Is a command or a control possible at all? What can be said from its fields alone, without a
+// world.
 
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <string>
+#include <string_view>
 
-#include "poinsot/protocol/result.h"
+#include "poinsot/presentation/value_check.h"
+#include "poinsot/protocol/run_control.h"
 #include "poinsot/protocol/wrench_command.h"
 
 namespace poinsot {
-
-// Why a command is not taken: the code and the reason in words, with the value received.
-struct Refusal {
-  ResultCode code = ResultCode::invalid_value;
-  std::string reason;
-};
 
 // The last frame that a command may name: beyond it a frame's number is no longer exact in double.
 inline constexpr std::uint64_t kMaxFrame = std::uint64_t{1} << 53;
 
 // The first fault of identity, enumerators, numbers or times; nothing if there is none.
 std::optional<Refusal> check_values(const WrenchCommand& command);
+
+// A control that was meant for another run than the one of `epoch`.
+std::optional<Refusal> check_epoch(std::uint32_t meant, std::uint32_t epoch);
+
+// The scope of a reset.
+std::optional<Refusal> check_scope(const RunControl& control);
+
+// What a set_state sets. Its quaternion may be off by what rounding to float does.
+std::optional<Refusal> check_state(const RunControl& control);
+inline constexpr double kUnitSlack = 1e-6;  // [-] of the norm of an orientation
+
+// The name of a checkpoint, see kMaxStoreName.
+std::optional<Refusal> check_store_name(std::string_view name);
 
 }  // namespace poinsot

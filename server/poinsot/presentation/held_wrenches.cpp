@@ -3,36 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "poinsot/base/check.h"
-#include "poinsot/base/names.h"
+#include "poinsot/presentation/command_check.h"
+#include "poinsot/presentation/scene_wrenches.h"
 
 namespace poinsot {
 namespace {
 
-// Looking for the nearest name costs far more than the rest of a refusal, so a flood of misspelt
-// names must not make a frame late.
-constexpr int kSuggestionsPerBatch = 8;
-constexpr std::size_t kLongestSuggestedName = 64;
+// So many clients keep their memory while they hold nothing: who pushes now and then, or frame by
+// frame, then does so without an allocation.
+constexpr std::size_t kKeptClients = 1024;
 
 constexpr auto by_key = [](const auto& a, const auto& b) {
   return std::tuple(a.client, a.seq) < std::tuple(b.client, b.seq);
 };
-
-std::string unknown_body(const WrenchCommand& command, const World& world, int& suggestions) {
-  if (command.body)
-    return "no body with id " + std::to_string(command.body.slot) + "." +
-           std::to_string(command.body.generation);
-  if (command.body_name.empty()) return "no body named: give its name or its id";
-  std::string reason = "no body '" + command.body_name + "'";
-  if (command.body_name.size() > kLongestSuggestedName || suggestions-- <= 0) return reason;
-  const std::vector<std::string_view> names(world.names.begin(), world.names.end());
-  return reason + did_you_mean(command.body_name, names);
-}
-
-std::optional<Eigen::Index> find_body(const WrenchCommand& command, const World& world) {
-  return command.body ? world.find(command.body) : world.find(command.body_name);
-}
 
 // The point of action from the centre of mass, in B, at this moment.
 Vec3 point_B(const WrenchCommand& command, const World& world, Eigen::Index i) {
@@ -63,20 +49,27 @@ std::uint64_t last_frame_of(const WrenchCommand& command, std::uint64_t first, d
   return 0;
 }
 
+std::string why_it_does_not_move(const World& world, std::size_t i) {
+  const std::string body = "body '" + world.names[i] + "' is ";
+  if (world.motion[i] == Motion::fixed) return body + "static: nothing moves it";
+  if (world.motion[i] == Motion::kinematic) return body + "kinematic: no force moves it";
+  return body + "frozen: its state had become non-finite";
+}
+
 }  // namespace
 
 std::uint64_t frames_of(double duration, double frame_rate) {
   return static_cast<std::uint64_t>(std::max(1.0, std::ceil(duration * frame_rate - 1e-6)));
 }
 
-HeldWrenches::HeldWrenches(double frame_rate) : frame_rate_(frame_rate) {
-  held_.reserve(kCapacity);  // address space only; pages are touched when they are used
-}
+HeldWrenches::HeldWrenches(double frame_rate, std::uint64_t revision)
+    : frame_rate_(frame_rate), revision_(revision) {}
 
 void HeldWrenches::accept(std::span<const WrenchCommand> commands, const World& world,
                           std::uint64_t next, std::uint32_t epoch, std::vector<Reply>& replies) {
   POINSOT_ASSERT(std::is_sorted(commands.begin(), commands.end(), by_key));
-  Moment moment{world, next, epoch, kSuggestionsPerBatch};
+  sweep(next);
+  Moment moment{world, next, epoch, {}};
   for (const WrenchCommand& command : commands) {
     Reply& reply = replies.emplace_back();
     reply.client = command.client;
@@ -87,15 +80,13 @@ void HeldWrenches::accept(std::span<const WrenchCommand> commands, const World& 
       reply.message = std::move(refusal->reason);
     }
   }
+  sweep(next);  // what was replaced before it began
 }
 
 std::optional<Refusal> HeldWrenches::take(const WrenchCommand& command, Moment& moment,
                                           Reply& reply) {
   if (auto refusal = check_values(command)) return refusal;
-  if (command.epoch != 0 && command.epoch != moment.epoch)
-    return Refusal{ResultCode::wrong_epoch, "meant for epoch " + std::to_string(command.epoch) +
-                                                "; epoch " + std::to_string(moment.epoch) +
-                                                " runs"};
+  if (auto refusal = check_epoch(command.epoch, moment.epoch)) return refusal;
   if (command.start_frame != 0 && command.start_frame < moment.next)
     return Refusal{ResultCode::too_late, "start_frame " + std::to_string(command.start_frame) +
                                              " has passed; the next frame is " +
@@ -103,11 +94,14 @@ std::optional<Refusal> HeldWrenches::take(const WrenchCommand& command, Moment& 
   reply.first_frame = std::max(command.start_frame, moment.next);
 
   const bool every_body = command.hold == Hold::clear && !command.body && command.body_name.empty();
-  const auto column = every_body ? std::nullopt : find_body(command, moment.world);
+  const auto column =
+      every_body ? std::nullopt : find_body(command.body, command.body_name, moment.world);
   if (!column && !every_body)
-    return Refusal{ResultCode::not_found, unknown_body(command, moment.world, moment.suggestions)};
+    return unknown_body(command.body, command.body_name, moment.world, moment.suggestions);
+  if (column) reply.body = moment.world.ids[static_cast<std::size_t>(*column)];
   if (command.hold != Hold::clear) return hold(command, moment, *column, reply);
-  clear(command, column, reply);
+  end(command.client, {command.slot, column}, reply.first_frame, moment.next);
+  reply.last_frame = reply.first_frame;
   return std::nullopt;
 }
 
@@ -115,77 +109,176 @@ std::optional<Refusal> HeldWrenches::hold(const WrenchCommand& command, const Mo
                                           Eigen::Index column, Reply& reply) {
   const auto i = static_cast<std::size_t>(column);
   if (moment.world.motion[i] != Motion::dynamic)
-    return Refusal{ResultCode::incorrect_state,
-                   "body '" + moment.world.names[i] +
-                       (moment.world.motion[i] == Motion::fixed
-                            ? "' is static: nothing moves it"
-                            : "' is frozen: its state had become non-finite")};
-  if (held_.size() >= kCapacity)
-    return Refusal{ResultCode::operation_failed,
-                   std::to_string(kCapacity) + " wrenches are held, no more can be: clear some"};
+    return Refusal{ResultCode::incorrect_state, why_it_does_not_move(moment.world, i)};
+  if (auto refusal = check_room(command, reply.first_frame, moment.next)) return refusal;
 
+  if (command.slot != 0)
+    end(command.client, {.slot = command.slot}, reply.first_frame, moment.next);
   reply.last_frame = last_frame_of(command, reply.first_frame, frame_rate_);
-  held_.push_back({.client = command.client,
-                   .seq = command.seq,
-                   .first_frame = reply.first_frame,
-                   .last_frame = reply.last_frame,
-                   .column = column,
-                   .axes = command.axes,
-                   .force = command.force,
-                   .torque = command.torque,
-                   .p_B = point_B(command, moment.world, column)});
-  changed_ = true;
+  clients_[command.client].add({.seq = command.seq,
+                                .first_frame = reply.first_frame,
+                                .last_frame = reply.last_frame,
+                                .column = column,
+                                .slot = command.slot,
+                                .kind = command.kind,
+                                .axes = command.axes,
+                                .outlives_client = command.outlives_client,
+                                .force = command.force,
+                                .torque = command.torque,
+                                .p_B = point_B(command, moment.world, column),
+                                .target = command.target,
+                                .stiffness = command.stiffness,
+                                .damping = command.damping});
+  ++size_;
+  note_change(set_of(command.kind), reply.first_frame);
+  if (reply.last_frame != kForever) next_end_ = std::min(next_end_, reply.last_frame + 1);
   return std::nullopt;
 }
 
-void HeldWrenches::clear(const WrenchCommand& command, std::optional<Eigen::Index> column,
-                         Reply& reply) {
-  reply.last_frame = reply.first_frame;
-  std::erase_if(held_, [&](Held& held) {
-    if (held.client != command.client || (column && held.column != *column)) return false;
-    held.last_frame = std::min(held.last_frame, reply.first_frame - 1);
-    return held.last_frame < held.first_frame;
-  });
-  changed_ = true;
+// Counts without what the command itself would end.
+std::optional<Refusal> HeldWrenches::check_room(const WrenchCommand& command, std::uint64_t first,
+                                                std::uint64_t next) const {
+  const auto found = clients_.find(command.client);
+  const std::size_t own = found == clients_.end() ? 0 : found->second.size();
+  const bool may_be_full =
+      size_ >= kCapacity || (command.client != kSceneClient && own >= kMaxHeldPerClient);
+  if (!may_be_full) return std::nullopt;
+  const std::size_t freed = command.slot == 0 || own == 0
+                                ? 0
+                                : found->second.count_over({.slot = command.slot}, first, next);
+  if (command.client != kSceneClient && own - freed >= kMaxHeldPerClient)
+    return Refusal{ResultCode::quota_exceeded, "the client holds " + std::to_string(own) +
+                                                   " wrenches, as many as one may: clear some"};
+  if (size_ - freed >= kCapacity)
+    return Refusal{ResultCode::operation_failed,
+                   std::to_string(kCapacity) + " wrenches are held, no more can be: clear some"};
+  return std::nullopt;
 }
 
-void HeldWrenches::apply_to(World& world, std::uint64_t frame) {
-  if (!changes(frame)) return;
-  std::erase_if(held_, [&](const Held& held) { return held.last_frame < frame; });
-  if (changed_) std::sort(held_.begin(), held_.end(), by_key);
-  std::fill(world.held.begin(), world.held.end(), HeldWrench{});
-  next_change_ = kForever;
-  for (const Held& held : held_) {
-    const bool active = held.first_frame <= frame;
-    if (active) add_to(world.held[static_cast<std::size_t>(held.column)], held);
-    const std::uint64_t after = held.last_frame == kForever ? kForever : held.last_frame + 1;
-    next_change_ = std::min(next_change_, active ? after : held.first_frame);
+void HeldWrenches::end(std::uint64_t client, const Selection& selection, std::uint64_t frame,
+                       std::uint64_t next) {
+  const auto found = clients_.find(client);
+  if (found == clients_.end()) return;
+  HeldOfClient& held = found->second;
+  const std::size_t before = held.size();
+  note_change(held.end(selection, frame, next), frame);
+  size_ -= before - held.size();
+  next_end_ = std::min(next_end_, held.next_end());
+}
+
+void HeldWrenches::note_change(KindSet kinds, std::uint64_t frame) {
+  if (kinds == 0) return;
+  ++revision_;
+  for (const auto& [name, kind] : kWrenchKindNames)
+    if ((kinds & set_of(kind)) != 0) due(kind) = std::min(due(kind), frame);
+}
+
+void HeldWrenches::sweep(std::uint64_t next) {
+  if (next < next_end_) return;
+  next_end_ = kForever;
+  for (auto client = clients_.begin(); client != clients_.end();) {
+    HeldOfClient& held = client->second;
+    if (held.sweep(next)) ++revision_;
+    next_end_ = std::min(next_end_, held.next_end());
+    const bool forget = held.items().empty() && clients_.size() > kKeptClients;
+    client = forget ? clients_.erase(client) : std::next(client);
   }
-  changed_ = false;
+  size_ = 0;
+  for (const auto& [client, held] : clients_) size_ += held.size();
 }
 
-void HeldWrenches::add_to(HeldWrench& sum, const Held& held) {
-  if (held.axes == Axes::world) {
-    sum.add_force_at(held.p_B, held.force);
-    sum.in_W.torque += held.torque;
-  } else {
-    sum.in_B.force += held.force;
-    sum.in_B.torque += held.torque + held.p_B.cross(held.force);
+void HeldWrenches::release(std::uint64_t client, std::uint64_t next) {
+  const auto found = clients_.find(client);
+  if (found == clients_.end()) return;
+  note_change(found->second.release(), next);
+  next_end_ = 0;
+  sweep(next);
+}
+
+void HeldWrenches::release_all_clients() {
+  std::erase_if(clients_, [](const auto& client) { return client.first != kSceneClient; });
+  size_ = held_by(kSceneClient);
+  due_ = {};
+  ++revision_;
+}
+
+void HeldWrenches::remove_body(Eigen::Index column, CollisionLayer& collision) {
+  KindSet kinds = 0;
+  constexpr std::uint64_t kAtOnce = 1;  // nothing has acted before frame 1
+  for (auto& [client, held] : clients_) kinds |= held.end({.column = column}, kAtOnce, kAtOnce);
+  note_change(kinds, 0);
+  next_end_ = 0;
+  sweep(kAtOnce);
+  if (std::erase_if(tethers_, [column](const Tether& t) { return t.column == column; }) > 0)
+    collision.set_tethers(tethers_);
+}
+
+std::size_t HeldWrenches::held_by(std::uint64_t client) const {
+  const auto found = clients_.find(client);
+  return found == clients_.end() ? 0 : found->second.size();
+}
+
+void HeldWrenches::list(HeldList& list, const World& world) const {
+  list.items.clear();
+  for (const auto& [client, of_client] : clients_)
+    for (const Held& held : of_client.items()) {
+      if (list.items.size() == kMaxListed) break;
+      const auto i = static_cast<std::size_t>(held.column);
+      list.items.push_back({.client = client,
+                            .seq = held.seq,
+                            .slot = held.slot,
+                            .body = world.ids[i],
+                            .kind = held.kind,
+                            .axes = held.axes,
+                            .force = held.force,
+                            .torque = held.torque,
+                            .point_B = world.center_of_mass[i] + held.p_B,
+                            .target = held.target,
+                            .stiffness = held.stiffness,
+                            .damping = held.damping,
+                            .first_frame = held.first_frame,
+                            .last_frame = held.last_frame,
+                            .outlives_client = held.outlives_client});
+    }
+  list.left_out = static_cast<std::uint32_t>(size_ - list.items.size());
+}
+
+void HeldWrenches::hash_into(Hash64& hash) const {
+  for (const auto& [client, held] : clients_) {
+    if (held.items().empty()) continue;
+    hash.add(client);
+    hash.add(held.digest());
   }
 }
 
-void HeldWrenches::hash_into(Hash64& hash, std::uint64_t frame) const {
-  for (const Held& held : held_) {
-    if (held.last_frame <= frame) continue;
-    hash.add(held.client);
-    hash.add(held.seq);
-    hash.add(held.first_frame);
-    hash.add(held.last_frame);
-    hash.add(static_cast<std::uint64_t>(held.column));
-    hash.add(static_cast<std::uint64_t>(held.axes));
-    hash.add(std::span(held.force.data(), 3));
-    hash.add(std::span(held.torque.data(), 3));
-    hash.add(std::span(held.p_B.data(), 3));
+void HeldWrenches::save(ByteWriter& out) const {
+  out(static_cast<std::uint64_t>(clients_.size()));
+  for (const auto& [client, held] : clients_) out(client, held.items());
+  out(static_cast<std::uint64_t>(tethers_.size()));
+  for (const Tether& t : tethers_) out(t.column, t.p_B, t.target, t.stiffness, t.damping);
+}
+
+void HeldWrenches::restore(ByteReader& in, Eigen::Index columns) {
+  const auto check = [columns](Eigen::Index column) {
+    if (column < 0 || column >= columns) ByteReader::fail();
+  };
+  std::uint64_t clients = 0, tethers = 0;
+  for (in(clients); clients > 0; --clients) {
+    std::uint64_t client = 0;
+    std::vector<Held> items;
+    in(client, items);
+    HeldOfClient& held = clients_[client];
+    for (const Held& item : items) {
+      check(item.column);
+      held.add(item);
+      next_end_ = std::min(next_end_, held.next_end());
+    }
+    size_ += items.size();
+  }
+  for (in(tethers); tethers > 0; --tethers) {
+    Tether& t = tethers_.emplace_back();
+    in(t.column, t.p_B, t.target, t.stiffness, t.damping);
+    check(t.column);
   }
 }
 

@@ -1,22 +1,27 @@
 #include "poinsot/presentation/presentation_layer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "poinsot/base/check.h"
+#include "poinsot/base/limits.h"
 #include "poinsot/presentation/scene_wrenches.h"
 
 namespace poinsot {
+namespace {
+
+std::int64_t sim_time_ns(std::uint64_t frame, double frame_rate) {
+  return std::llround(static_cast<double>(frame) * 1e9 / frame_rate);
+}
+
+}  // namespace
 
 PresentationLayer::PresentationLayer(Scene scene)
-    : scene_(std::move(scene)), collision_(scene_), held_(frame_rate()) {
-  for (Eigen::Index i = 0; i < world().size(); ++i)
-    if (world().moves(i) || world().is_kinematic(i)) columns_.push_back(i);
-  snapshot_.bodies.resize(columns_.size());
-  body_methods_.resize(columns_.size(), Method::none);
-  captured_asleep_.resize(columns_.size(), 0);
+    : scene_(std::move(scene)), collision_(scene_.now()), held_(frame_rate()) {
+  follow_scene();
   hold_scene_wrenches();
-  capture();
+  refresh();
 }
 
 void PresentationLayer::accept(std::span<const WrenchCommand> commands,
@@ -28,32 +33,37 @@ void PresentationLayer::accept(std::span<const WrenchCommand> commands,
 
 void PresentationLayer::advance_frame() {
   ++frame_;
-  if (held_.changes(frame_)) held_.apply_to(collision_.world(), frame_);
+  if (held_.changes(frame_)) held_.apply_to(collision_, frame_);
   collision_.advance_to(static_cast<double>(frame_) / frame_rate());  // all physics is in here
-  capture();
-}
-
-void PresentationLayer::reset() {
-  times_ = times();
-  collision_ = CollisionLayer(scene_);
-  held_ = HeldWrenches(frame_rate());
-  frame_ = 0;
-  impacts_so_far_ = 0;
-  captured_asleep_.assign(columns_.size(), 0);
-  digests_ = {};
-  ++epoch_;
-  hold_scene_wrenches();
+  held_.end_frame(frame_);
   capture();
 }
 
 void PresentationLayer::hold_scene_wrenches() {
-  if (scene_.wrenches.empty()) return;
+  if (scene().wrenches.empty()) return;
   std::vector<Reply> replies;
-  held_.accept(scene_wrenches(scene_, world()), world(), frame_ + 1, epoch_, replies);
+  held_.accept(scene_wrenches(scene(), world()), world(), frame_ + 1, epoch_, replies);
   for (const Reply& reply : replies) POINSOT_CHECK(reply.code == ResultCode::ok);  // validate()
 }
 
+// Other bodies, or other ones in their places: nothing that was captured of them holds.
+void PresentationLayer::follow_scene() {
+  columns_.clear();
+  const std::vector<BodyDef>& bodies = scene().bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!bodies[i].absent && !bodies[i].is_static) columns_.push_back(static_cast<Eigen::Index>(i));
+  snapshot_.bodies.resize(columns_.size());
+  body_methods_.resize(columns_.size(), Method::none);
+  captured_asleep_.assign(columns_.size(), 0);
+  digests_ = {};
+}
+
 void PresentationLayer::capture() {
+  capture_impacts();
+  refresh();
+}
+
+void PresentationLayer::refresh() {
   const Stopwatch::Lap lap(times_.presentation);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Eigen::Index i = columns_[k];
@@ -65,11 +75,14 @@ void PresentationLayer::capture() {
                            linear_velocity(world(), i), angular_velocity(world(), i)};
   }
   snapshot_.epoch = epoch_;
+  snapshot_.total = static_cast<std::uint32_t>(columns_.size());
   snapshot_.frame = frame_;
-  snapshot_.sim_time_ns = std::llround(static_cast<double>(frame_) * 1e9 / frame_rate());
-  snapshot_.state_hash = state_hash(frame_, collision_, held_, digests_);
+  snapshot_.sim_time_ns = sim_time_ns(frame_, frame_rate());
+  snapshot_.state_hash = state_hash(frame_, collision_, held_, scene_.digest(), digests_);
+  refresh_report();
+}
 
-  capture_impacts();
+void PresentationLayer::refresh_report() {
   const CollisionReport& collision = collision_.report();
   const SimulationLayer& simulation = collision_.simulation();
   const std::uint32_t quarantined = simulation.quarantined();
@@ -123,6 +136,25 @@ void PresentationLayer::capture_impacts() {
          .point = event.point,
          .normal = event.normal,
          .impulse = event.impulse});
+}
+
+void PresentationLayer::contacts(ContactSnapshot& contacts) const {
+  contacts.epoch = epoch_;
+  contacts.frame = frame_;
+  contacts.sim_time_ns = snapshot_.sim_time_ns;
+  collision_.contact_forces(contact_forces_);
+  const std::size_t told = std::min(contact_forces_.size(), kMaxContacts);
+  contacts.left_out = static_cast<std::uint32_t>(contact_forces_.size() - told);
+  contacts.contacts.clear();
+  const auto id = [this](int i) { return world().ids[static_cast<std::size_t>(i)]; };
+  for (const ContactForce& c : std::span(contact_forces_).first(told))
+    contacts.contacts.push_back({id(c.a), id(c.b), c.point, c.normal, c.force});
+}
+
+void PresentationLayer::held(HeldList& list) const {
+  list.epoch = epoch_;
+  list.frame = frame_;
+  held_.list(list, world());
 }
 
 LayerTimes PresentationLayer::times() const {

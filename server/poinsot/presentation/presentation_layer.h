@@ -4,14 +4,24 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "poinsot/base/stopwatch.h"
 #include "poinsot/collision/collision_layer.h"
+#include "poinsot/presentation/checkpoint.h"
+#include "poinsot/presentation/checkpoint_ring.h"
 #include "poinsot/presentation/held_wrenches.h"
+#include "poinsot/presentation/living_scene.h"
+#include "poinsot/presentation/order.h"
 #include "poinsot/presentation/state_hash.h"
+#include "poinsot/protocol/contact_snapshot.h"
 #include "poinsot/protocol/frame_report.h"
+#include "poinsot/protocol/held_list.h"
 #include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
 
@@ -26,6 +36,25 @@ class PresentationLayer {
   // The commands are sorted by (client, seq).
   void accept(std::span<const WrenchCommand> commands, std::vector<Reply>& replies);
 
+  // Does at once what the physics has to know of: reset, spawn, remove, set_state, save (to
+  // memory), restore, release. Other actions are the loop's. Between frames, in the order (client,
+  // seq) among the wrenches of the same turn.
+  Reply obey(const Order& order);
+  // What was last saved by save.
+  std::shared_ptr<const Checkpoint> last_saved() const { return ring_.newest(); }
+  // Of this name in memory, or of no name the newest: what restore would go back to.
+  std::shared_ptr<const Checkpoint> saved(std::string_view name) const { return ring_.find(name); }
+  // All that a continuation needs, now. Named by frame and epoch.
+  std::shared_ptr<const Checkpoint> make_checkpoint(std::string name) const;
+  // Goes on from there, in the next epoch. Throws Error if the bytes are damaged; the run is then
+  // as it was.
+  void restore(const Checkpoint& checkpoint);
+  std::size_t checkpoints() const { return ring_.size(); }  // in memory
+  // Of those; of no name: the newest. Nothing if there is none.
+  std::shared_ptr<const Checkpoint> find_checkpoint(std::string_view name) const {
+    return ring_.find(name);
+  }
+
   // Advances to the end of the next frame.
   void advance_frame();
 
@@ -34,9 +63,12 @@ class PresentationLayer {
 
   std::uint64_t frame() const { return frame_; }  // the last one advanced; 0: the initial state
   std::uint32_t epoch() const { return epoch_; }  // from 1, grows with each reset
-  double frame_rate() const { return scene_.presentation.frame_rate; }  // [Hz]
-  double time() const { return collision_.time(); }                     // [s] frame / frame_rate
-  const Scene& scene() const { return scene_; }
+  double frame_rate() const { return scene().presentation.frame_rate; }  // [Hz]
+  double time() const { return collision_.time(); }                      // [s] frame / frame_rate
+  // As it is now, with absent bodies: places that nobody has. In the order of the slots.
+  const Scene& scene() const { return scene_.now(); }
+  // As it was given: what a reset goes back to.
+  std::shared_ptr<const Scene> original_scene() const { return scene_.share_original(); }
   const World& world() const { return collision_.world(); }
 
   // The dynamic bodies at the end of the last frame, with its hash. session and publish_time_ns are
@@ -50,12 +82,43 @@ class PresentationLayer {
   std::span<const ImpactNotice> impacts() const { return impacts_; }
   LayerTimes times() const;  // since construction, over all epochs
 
+  // From 1; another one when bodies came, went, or static ones were moved.
+  std::uint32_t scene_revision() const { return scene_.revision(); }
+  // Of all kinds that are there.
+  std::uint32_t scene_bodies() const { return static_cast<std::uint32_t>(scene_.bodies()); }
+  // Computed when asked for; session and sequence are left to whoever sends them.
+  void contacts(ContactSnapshot& contacts) const;
+  void held(HeldList& list) const;
+  // Another one when held() would tell of other items.
+  std::uint64_t held_revision() const { return held_.revision(); }
+  std::size_t held_count() const { return held_.size(); }
+  std::uint32_t held_by(std::uint64_t client) const {
+    return static_cast<std::uint32_t>(held_.held_by(client));
+  }
+
  private:
   void hold_scene_wrenches();
+  void follow_scene();
   void capture();
   void capture_impacts();
+  void refresh();
+  void refresh_report();
 
-  Scene scene_;
+  std::optional<Refusal> carry_out(const Order& order, Reply& reply);
+  std::optional<Refusal> spawn(const Order& order, Reply& reply);
+  std::optional<Refusal> remove(const RunControl& control, Reply& reply);
+  std::optional<Refusal> set_state(const RunControl& control, Reply& reply);
+  std::optional<Refusal> save(const RunControl& control, Reply& reply);
+  std::optional<Refusal> restore(const Order& order);
+  std::optional<Refusal> find(const RunControl& control, Eigen::Index& column, Reply& reply) const;
+  void remove_body(Eigen::Index i);
+
+  void reset(std::uint8_t scope);
+  void return_to_start(Eigen::Index i);
+  void begin_again(bool with_state);
+  void next_epoch();
+
+  LivingScene scene_;
   CollisionLayer collision_;
   HeldWrenches held_;
   std::uint64_t frame_ = 0;
@@ -70,6 +133,8 @@ class PresentationLayer {
   // 0: it is awake.
   std::vector<std::uint32_t> captured_asleep_;
   BodyDigests digests_;
+  CheckpointRing ring_;
+  mutable std::vector<ContactForce> contact_forces_;  // scratch of contacts()
   LayerTimes times_;  // own time, and the inner layers' before the last reset
 };
 

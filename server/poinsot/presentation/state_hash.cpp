@@ -13,7 +13,8 @@ std::uint64_t digest_of(const World& world, Eigen::Index i) {
 }  // namespace
 
 std::uint64_t state_hash(std::uint64_t frame, const CollisionLayer& collision,
-                         const HeldWrenches& held, BodyDigests& digests) {
+                         const HeldWrenches& held, std::uint64_t scene_digest,
+                         BodyDigests& digests) {
   const World& world = collision.world();
   digests.value.resize(static_cast<std::size_t>(world.size()), 0);
   digests.stamp.resize(digests.value.size(), 0);
@@ -28,7 +29,8 @@ std::uint64_t state_hash(std::uint64_t frame, const CollisionLayer& collision,
     hash.add(digest);
     if (!collision.is_asleep(i)) digest = 0;
   }
-  held.hash_into(hash, frame);
+  if (scene_digest != 0) hash.add(scene_digest);
+  held.hash_into(hash);
   collision.hash_into(hash);
   return hash.value();
 }

@@ -17,7 +17,9 @@ struct BodyDigests {
   std::vector<std::uint32_t> stamp;  // of the course that they are of
 };
 
+// `scene_digest`: what LivingScene knows of bodies that came and went.
 std::uint64_t state_hash(std::uint64_t frame, const CollisionLayer& collision,
-                         const HeldWrenches& held, BodyDigests& digests);
+                         const HeldWrenches& held, std::uint64_t scene_digest,
+                         BodyDigests& digests);
 
 }  // namespace poinsot

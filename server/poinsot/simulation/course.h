@@ -56,6 +56,25 @@ class Course {
 
   // A driven body's course is integrated by this thread's means from now on.
   void use(SimulationWorker& worker) { preview_.worker = &worker; }
+  // The flight has moved in memory.
+  void use(const Flight& flight) { flight_ = &flight; }
+
+  // All but whose it is: attach() says that, to one that was read.
+  template <class Archive>
+  void archive(Archive& with) {
+    with.choice(kind_, Kind::driven);
+    with(start_, end_);
+    if (kind_ == Kind::still || kind_ == Kind::uniform) with(pose_);
+    if (kind_ == Kind::uniform) with(velocity_);
+    if (kind_ == Kind::driven) with(preview_.from, preview_.in_contact);
+    if (kind_ != Kind::still) with(acceleration_, slack_, rotation_);
+  }
+  void attach(const World& world, Eigen::Index body, const Flight* flight, SimulationLayer* layer) {
+    world_ = &world;
+    body_ = body;
+    flight_ = flight;
+    preview_.layer = layer;
+  }
 
   Kind kind() const { return kind_; }
   bool moves() const { return kind_ != Kind::still; }

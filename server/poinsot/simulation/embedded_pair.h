@@ -48,6 +48,12 @@ struct StepMemory {
   // Of the fixed-step methods.
   LocalError step_error;       // of one step, when it was last estimated
   std::uint32_t advances = 0;  // so far
+
+  bool operator==(const StepMemory&) const = default;
+  template <class Archive>
+  void archive(Archive& with) {
+    with(h, last_error, stiff_steps, stiff, step_error, advances);
+  }
 };
 
 // The largest error of a step of h against its scale; infinite if anything is not finite.

@@ -40,6 +40,10 @@ class Flight {
 
   // Adds where it began: all else follows from that.
   void hash_into(Hash64& hash) const;
+  template <class Archive>
+  void archive(Archive& with) {
+    with(start_, c_, P_, v_, L_, q_, rotation_);
+  }
 
  private:
   double start_ = 0;  // [s]

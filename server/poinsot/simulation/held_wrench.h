@@ -43,6 +43,11 @@ struct HeldWrench {
     w += in_W;
     return w;
   }
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(in_W, in_B, moment);
+  }
 };
 
 }  // namespace poinsot

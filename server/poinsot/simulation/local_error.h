@@ -19,6 +19,12 @@ struct LocalError {
     position = std::max(position, other.position);
     orientation = std::max(orientation, other.orientation);
   }
+  bool operator==(const LocalError&) const = default;
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(position, orientation);
+  }
 };
 
 }  // namespace poinsot

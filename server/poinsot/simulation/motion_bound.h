@@ -41,6 +41,11 @@ struct RotationBound {
   double turn_acceleration(const Vec3& n) const {  // of n_B [rad/s²]
     return turn_rate(n) * omega + alpha;
   }
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(omega, alpha, along, perp, axis);
+  }
 };
 
 // Of a body that rotates freely with angular momentum L [kg·m²/s] in W at orientation R (B → W).

@@ -37,19 +37,39 @@ class TorqueFree {
   // Largest error of at(t) [rad].
   double error(double t) const;
 
+  template <class Archive>
+  void archive(Archive& with) {
+    with(motion_, rate_);
+  }
+
  private:
   struct Still {
     Quat q;
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(q);
+    }
   };
   struct Spin {
     Phase half_angle;  // [turn] of half the rotation
     Vec3 axis;         // unit, in W
     Quat q;
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(half_angle, axis, q);
+    }
   };
   struct Top {
     Phase half_precession, half_spin;  // [turn] of half the rotations
     Vec3 axis_W, axis_B;               // unit: of L, of the body
     Quat q;
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(half_precession, half_spin, axis_W, axis_B, q);
+    }
   };
   // R(t) = left · Rz(ψ) · A(m̂) · right with A the shortest arc from m̂ = m/|m| to e₃, m in the
   // principal frame, m₃ > 0; exp(iψ) = exp(iλt) Θ(u + ib) (m₁ − i m₂) up to a positive factor.
@@ -59,6 +79,11 @@ class TorqueFree {
     double sn_scale;  // of m₂ against m₁ where only their direction counts
     Phase z;          // u in turns: z = π u / 2K for the series, u / 2K for the Gaussians
     Phase lambda;     // [turn]
+
+    template <class Archive>
+    void archive(Archive& with) {
+      with(left, right, scale, sn_scale, z, lambda);
+    }
   };
   struct Polhode : Frame {
     static constexpr int kTerms = 5;  // enough for a nome of ¼
@@ -66,12 +91,25 @@ class TorqueFree {
     bool shifted;                               // θ₁ in place of θ₄ in Θ(u + ib)
     std::array<double, kTerms + 1> even, odd;   // qⁿ², qⁿ⁽ⁿ⁺¹⁾
     std::array<double, kTerms + 1> real, imag;  // of Θ(u + ib)
+
+    template <class Archive>
+    void archive(Archive& with) {
+      Frame::archive(with);
+      with.choice(terms, kTerms);
+      with(shifted, even, odd, real, imag);
+    }
   };
   struct Separatrix : Frame {
     double exponent;                   // h = exp(exponent · z), z [half turn]
     double q1, q2, q4, q6;             // powers of the complementary nome
     double beta;                       // b / K′
     std::array<double, 3> real, imag;  // of exp(iβπ(n + ½))
+
+    template <class Archive>
+    void archive(Archive& with) {
+      Frame::archive(with);
+      with(exponent, q1, q2, q4, q6, beta, real, imag);
+    }
   };
 
   static Quat turn(const Frame& frame, const Vec3& m, double x, double y, double angle);

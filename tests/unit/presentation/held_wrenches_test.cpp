@@ -43,11 +43,12 @@ class HeldWrenchesTest : public testing::Test {
   }
 
   const HeldWrench& held_in(std::uint64_t frame, std::size_t body = 0) {
-    held_.apply_to(world_, frame);
+    held_.apply_to(layer_, frame);
     return world_.held[body];
   }
 
-  World world_{scene_of_three()};
+  CollisionLayer layer_{scene_of_three()};
+  World& world_ = layer_.world();
   HeldWrenches held_{kFrameRate};
 };
 
@@ -207,28 +208,30 @@ TEST_F(HeldWrenchesTest, SumsDoNotDependOnTheOrderOfArrival) {
   held_.accept(commands, world_, 1, 1, replies);
   for (auto command = commands.rbegin(); command != commands.rend(); ++command)
     backwards.accept({&*command, 1}, world_, 1, 1, replies);
-  held_.apply_to(world_, 1);
+  held_.apply_to(layer_, 1);
   const HeldWrench sum = world_.held[0];
-  backwards.apply_to(world_, 1);
+  backwards.apply_to(layer_, 1);
   EXPECT_EQ(sum.in_W.force, world_.held[0].in_W.force);
   EXPECT_EQ(sum.moment, world_.held[0].moment);
   Hash64 a, b;
-  held_.hash_into(a, 1);
-  backwards.hash_into(b, 1);
+  held_.hash_into(a);
+  backwards.hash_into(b);
   EXPECT_EQ(a.value(), b.value());
 }
 
 TEST_F(HeldWrenchesTest, HashForgetsWhatHasEnded) {
   Hash64 none, active, ended;
-  held_.hash_into(none, 0);
+  held_.hash_into(none);
   WrenchCommand command = push(1, 1);
   command.hold = Hold::duration;
   command.duration_ns = 1'000'000'000 / 30;  // two frames
   accept(command);
-  held_.apply_to(world_, 1);
-  held_.hash_into(active, 1);
-  held_.apply_to(world_, 2);
-  held_.hash_into(ended, 2);
+  held_.apply_to(layer_, 1);
+  held_.end_frame(1);
+  held_.hash_into(active);
+  held_.apply_to(layer_, 2);
+  held_.end_frame(2);
+  held_.hash_into(ended);
   EXPECT_NE(none.value(), active.value());
   EXPECT_EQ(none.value(), ended.value());
 }
@@ -236,11 +239,12 @@ TEST_F(HeldWrenchesTest, HashForgetsWhatHasEnded) {
 TEST_F(HeldWrenchesTest, RefusesBeyondItsCapacityAndSaysSo) {
   WrenchCommand command = push(1, 1);
   command.hold = Hold::until_cleared;
-  for (std::uint64_t n = 1; n <= HeldWrenches::kCapacity; ++n) {
-    command.seq = n;
+  for (std::uint64_t n = 0; n < HeldWrenches::kCapacity; ++n) {
+    command.client = 1 + n / kMaxHeldPerClient;
+    command.seq = 1 + n % kMaxHeldPerClient;
     ASSERT_EQ(accept(command).code, ResultCode::ok);
   }
-  command.seq = HeldWrenches::kCapacity + 1;
+  ++command.client;
   const Reply reply = accept(command);
   EXPECT_EQ(reply.code, ResultCode::operation_failed);
   EXPECT_NE(reply.message.find("65536 wrenches are held"), std::string::npos) << reply.message;
@@ -264,7 +268,7 @@ TEST_P(HeldWrenchesRefusal, SaysWhyAndHoldsNothing) {
   EXPECT_EQ(reply.code, GetParam().code);
   EXPECT_NE(reply.message.find(GetParam().reason), std::string::npos) << reply.message;
   EXPECT_EQ(held_.size(), 0u);
-  held_.apply_to(world_, 10);
+  held_.apply_to(layer_, 10);
   for (const HeldWrench& held : world_.held) EXPECT_TRUE(held.is_zero());
 }
 

@@ -25,32 +25,38 @@ void expect_round_trip(const Message& message) {
 }
 
 TEST(Convert, PosesKeepEveryField) {
-  expect_round_trip<msg::v1::PoseFrame>(sample::poses(13, 7));
+  expect_round_trip<msg::v2::PoseFrame>(sample::poses(13, 7));
 }
 TEST(Convert, ABodyKeepsEveryField) {
-  expect_round_trip<msg::v2::BodyDescription>(sample::body_info(4, 9));
+  expect_round_trip<msg::v3::BodyDescription>(sample::body_info(4, 9));
 }
 TEST(Convert, AReportKeepsEveryField) {
-  expect_round_trip<msg::v4::RunStatus>(sample::report());
+  expect_round_trip<msg::v5::RunStatus>(sample::report());
 }
 TEST(Convert, AWrenchKeepsEveryField) {
-  expect_round_trip<msg::v1::BodyWrench>(sample::wrench());
+  expect_round_trip<msg::v2::BodyWrench>(sample::wrench());
 }
 TEST(Convert, AControlKeepsEveryField) {
-  expect_round_trip<msg::v1::RunRequest>(sample::control());
+  expect_round_trip<msg::v2::RunRequest>(sample::control());
 }
 TEST(Convert, AReplyKeepsEveryField) {
-  expect_round_trip<msg::v1::CommandReply>(sample::reply());
+  expect_round_trip<msg::v2::CommandReply>(sample::reply());
 }
 
 TEST(Convert, AnImpactKeepsEveryField) {
-  expect_round_trip<msg::v1::ImpactEvent>(sample::impact());
+  expect_round_trip<msg::v2::ImpactEvent>(sample::impact());
+}
+TEST(Convert, ContactsKeepEveryField) {
+  expect_round_trip<msg::v1::ContactFrame>(sample::contacts());
+}
+TEST(Convert, WhatIsHeldKeepsEveryField) {
+  expect_round_trip<msg::v1::HeldWrenches>(sample::held());
 }
 TEST(Convert, AnImpactThatCannotBeIsRefused) {
   const auto refused = [](const std::function<void(ImpactNotice&)>& spoil) {
     ImpactNotice impact = sample::impact(), back;
     spoil(impact);
-    msg::v1::ImpactEvent wire;
+    msg::v2::ImpactEvent wire;
     EXPECT_EQ(to_message(impact, wire), "");
     return from_message(wire, back);
   };
@@ -62,7 +68,7 @@ TEST(Convert, AnImpactThatCannotBeIsRefused) {
 }
 
 TEST(Convert, AFrameIntoAUsedSampleLeavesNothingOfTheOldOne) {
-  msg::v1::PoseFrame wire;
+  msg::v2::PoseFrame wire;
   PoseSnapshot back;
   ASSERT_EQ(to_message(sample::poses(1, 20), wire), "");
   ASSERT_EQ(from_message(wire, back), "");
@@ -74,7 +80,7 @@ TEST(Convert, AFrameIntoAUsedSampleLeavesNothingOfTheOldOne) {
 TEST(Convert, AReportIntoAUsedSampleLeavesNothingOfTheOldOne) {
   RunReport longer = sample::report();
   longer.body_methods.resize(100, Method::rk4);
-  msg::v4::RunStatus wire;
+  msg::v5::RunStatus wire;
   RunReport back;
   for (const RunReport& report : {longer, sample::report()}) {
     ASSERT_EQ(to_message(report, wire), "");
@@ -87,10 +93,10 @@ TEST(Convert, EveryMethodKeepsItsNumber) {
   RunReport report = sample::report();
   report.body_methods.clear();
   for (const auto& row : kMethodNames) report.body_methods.push_back(row.value);
-  expect_round_trip<msg::v4::RunStatus>(report);
-  EXPECT_EQ(msg::v4::METHOD_FLIGHT, static_cast<std::uint8_t>(Method::flight));
-  EXPECT_EQ(msg::v4::METHOD_ROSENBROCK, static_cast<std::uint8_t>(Method::rosenbrock));
-  EXPECT_EQ(msg::v4::METHOD_EXPLICIT_EULER, static_cast<std::uint8_t>(Method::explicit_euler));
+  expect_round_trip<msg::v5::RunStatus>(report);
+  EXPECT_EQ(msg::v5::METHOD_FLIGHT, static_cast<std::uint8_t>(Method::flight));
+  EXPECT_EQ(msg::v5::METHOD_ROSENBROCK, static_cast<std::uint8_t>(Method::rosenbrock));
+  EXPECT_EQ(msg::v5::METHOD_EXPLICIT_EULER, static_cast<std::uint8_t>(Method::explicit_euler));
 }
 
 TEST(Convert, EveryKindOfShapeKeepsItsParameters) {
@@ -102,7 +108,7 @@ TEST(Convert, EveryKindOfShapeKeepsItsParameters) {
                  {Cone{0.75, 4}, {}},
                  {Ellipsoid{{3, 2, 1}}, {}},
                  {HalfSpace{{0, 0.6, 0.8}, -2}, {}}};
-  msg::v2::BodyDescription wire;
+  msg::v3::BodyDescription wire;
   BodyInfo back;
   ASSERT_EQ(to_message(info, wire), "");
   ASSERT_EQ(from_message(wire, back), "");
@@ -132,7 +138,7 @@ Convex corner() {
 TEST(Convert, AConvexShapeKeepsVerticesAndFaces) {
   BodyInfo info = sample::body_info(0, 1);
   info.shapes = {{corner(), {}}};
-  msg::v2::BodyDescription wire;
+  msg::v3::BodyDescription wire;
   BodyInfo back;
   ASSERT_EQ(to_message(info, wire), "");
   ASSERT_EQ(from_message(wire, back), "");
@@ -156,7 +162,7 @@ Mesh sheet() {
 TEST(Convert, AMeshKeepsVerticesAndTriangles) {
   BodyInfo info = sample::body_info(0, 1);
   info.shapes = {{sheet(), {}}, {corner(), {}}};
-  msg::v2::BodyDescription wire;
+  msg::v3::BodyDescription wire;
   BodyInfo back;
   ASSERT_EQ(to_message(info, wire), "");
   ASSERT_EQ(from_message(wire, back), "");
@@ -173,13 +179,13 @@ TEST(Convert, AKinematicBodyStaysOne) {
   BodyInfo info = sample::body_info(0, 1);
   info.is_static = false;
   info.is_kinematic = true;
-  expect_round_trip<msg::v2::BodyDescription>(info);
+  expect_round_trip<msg::v3::BodyDescription>(info);
 }
 
 TEST(Convert, ALongReplyIsCutBetweenCharacters) {
   Reply reply = sample::reply();
   reply.message = std::string(kMaxMessageLength - 1, 'a') + "éb";  // é needs two bytes, one fits
-  msg::v1::CommandReply wire;
+  msg::v2::CommandReply wire;
   Reply back;
   ASSERT_EQ(to_message(reply, wire), "");
   ASSERT_EQ(from_message(wire, back), "");
@@ -187,10 +193,10 @@ TEST(Convert, ALongReplyIsCutBetweenCharacters) {
 }
 
 TEST(Convert, WhatDoesNotFitIsNotSent) {
-  msg::v1::PoseFrame frame;
+  msg::v2::PoseFrame frame;
   EXPECT_NE(to_message(sample::poses(0, kMaxBodies + 1), frame), "");
   BodyInfo info = sample::body_info(0, 1);
-  msg::v2::BodyDescription body;
+  msg::v3::BodyDescription body;
   info.name = std::string(kMaxNameLength + 1, 'a');
   EXPECT_NE(to_message(info, body), "");
   info = sample::body_info(0, 1);
@@ -200,11 +206,11 @@ TEST(Convert, WhatDoesNotFitIsNotSent) {
   EXPECT_NE(to_message(info, body), "");
   RunReport report = sample::report();
   report.body_methods.resize(kMaxBodies + 1);
-  msg::v4::RunStatus status;
+  msg::v5::RunStatus status;
   EXPECT_NE(to_message(report, status), "");
   WrenchCommand wrench = sample::wrench();
   wrench.body_name = "\xFF";
-  msg::v1::BodyWrench command;
+  msg::v2::BodyWrench command;
   EXPECT_NE(to_message(wrench, command), "");
 }
 
@@ -230,7 +236,7 @@ void expect_refusals(const Message& good, const std::vector<Fault<Type>>& faults
 }
 
 TEST(Convert, MalformedWrenchesAreRefusedWithTheReason) {
-  using Wire = msg::v1::BodyWrench;
+  using Wire = msg::v2::BodyWrench;
   expect_refusals<WrenchCommand, Wire>(
       sample::wrench(),
       {{"client is 0", [](Wire& w) { w.client(0); }},
@@ -259,7 +265,7 @@ TEST(Convert, MalformedWrenchesAreRefusedWithTheReason) {
 }
 
 TEST(Convert, AWrenchAtTheCentreOfMassIgnoresItsPoint) {
-  msg::v1::BodyWrench wire;
+  msg::v2::BodyWrench wire;
   ASSERT_EQ(to_message(sample::wrench(), wire), "");
   wire.point_kind(msg::v1::POINT_CENTER_OF_MASS);
   wire.point_of_action().x(kNaN);
@@ -269,18 +275,57 @@ TEST(Convert, AWrenchAtTheCentreOfMassIgnoresItsPoint) {
 }
 
 TEST(Convert, MalformedControlsAreRefusedWithTheReason) {
-  using Wire = msg::v1::RunRequest;
+  using Wire = msg::v2::RunRequest;
   expect_refusals<RunControl, Wire>(
       sample::control(),
       {{"client is 0", [](Wire& w) { w.client(0); }},
        {"seq is 0", [](Wire& w) { w.seq(0); }},
-       {"action 4 is unknown", [](Wire& w) { w.action(static_cast<msg::v1::ControlKind>(4)); }},
-       {"frames is not between", [](Wire& w) { w.frames(0); }},
-       {"frames is not between", [](Wire& w) { w.frames(kMaxStepFrames + 1); }}});
+       {"action 16 is unknown", [](Wire& w) { w.action(static_cast<msg::v2::ControlKind>(16)); }},
+       {"name is not printable", [](Wire& w) { w.name("\x07"); }},
+       {"body_name is not printable", [](Wire& w) { w.body_name("\x07"); }},
+       {"position.y is not finite", [](Wire& w) { w.pose().position().y(kNaN); }},
+       {"orientation is not a unit", [](Wire& w) { w.pose().orientation({}); }},
+       {"linear_velocity.x is not finite", [](Wire& w) { w.linear_velocity().x(kInfinity); }},
+       {"angular_velocity.z", [](Wire& w) { w.angular_velocity().z(2 * kMaxSpeed); }}});
+
+  const auto with = [](msg::v2::ControlKind action, auto&& spoil) {
+    return [action, spoil](Wire& w) {
+      w.action(action);
+      spoil(w);
+    };
+  };
+  expect_refusals<RunControl, Wire>(
+      sample::control(),
+      {{"frames is not between", with(msg::v2::CONTROL_STEP, [](Wire& w) { w.frames(0); })},
+       {"frames is not between",
+        with(msg::v2::CONTROL_STEP, [](Wire& w) { w.frames(kMaxStepFrames + 1); })},
+       {"scope 8 is unknown", with(msg::v2::CONTROL_RESET, [](Wire& w) { w.scope(8); })},
+       {"value is not finite", with(msg::v2::CONTROL_RUN_UNTIL, [](Wire& w) { w.value(kNaN); })},
+       {"value is negative", with(msg::v2::CONTROL_RUN_UNTIL, [](Wire& w) { w.value(-1); })},
+       {"value", with(msg::v2::CONTROL_SCALE, [](Wire& w) { w.value(2 * kMaxTimeScale); })},
+       {"timeout_ns is not", with(msg::v2::CONTROL_LOCK_STEP, [](Wire& w) { w.timeout_ns(-1); })},
+       {"no body is named", with(msg::v2::CONTROL_REMOVE, [](Wire& w) {
+          w.body({});
+          w.body_name("");
+        })}});
+}
+
+TEST(Convert, WhatAControlDoesNotSetIsNotLookedAt) {
+  msg::v2::RunRequest wire;
+  ASSERT_EQ(to_message(sample::control(), wire), "");
+  wire.sets_position(false);
+  wire.pose().position().x(kNaN);
+  wire.sets_orientation(false);
+  wire.pose().orientation({});
+  wire.value(kNaN);
+  RunControl out;
+  EXPECT_EQ(from_message(wire, out), "");
+  EXPECT_EQ(out.position, Vec3(0, 0, 0));
+  EXPECT_EQ(out.value, 0);
 }
 
 TEST(Convert, MalformedRepliesAreRefusedWithTheReason) {
-  using Wire = msg::v1::CommandReply;
+  using Wire = msg::v2::CommandReply;
   expect_refusals<Reply, Wire>(
       sample::reply(),
       {{"client is 0", [](Wire& w) { w.client(0); }},
@@ -290,7 +335,7 @@ TEST(Convert, MalformedRepliesAreRefusedWithTheReason) {
 }
 
 TEST(Convert, MalformedPosesAreRefusedWithTheReason) {
-  using Wire = msg::v1::PoseFrame;
+  using Wire = msg::v2::PoseFrame;
   expect_refusals<PoseSnapshot, Wire>(
       sample::poses(3, 5),
       {{"bodies[2]: position.x is not finite", [](Wire& w) { w.bodies()[2].position().x(kNaN); }},
@@ -309,11 +354,11 @@ TEST(Convert, MalformedPosesAreRefusedWithTheReason) {
 }
 
 TEST(Convert, MalformedReportsAreRefusedWithTheReason) {
-  using Wire = msg::v4::RunStatus;
+  using Wire = msg::v5::RunStatus;
   expect_refusals<RunReport, Wire>(
       sample::report(),
-      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v4::RunStateKind>(4)); }},
-       {"flags are unknown", [](Wire& w) { w.flags(32); }},
+      {{"state 4 is unknown", [](Wire& w) { w.state(static_cast<msg::v5::RunStateKind>(4)); }},
+       {"flags are unknown", [](Wire& w) { w.flags(256); }},
        {"position_error is not finite", [](Wire& w) { w.position_error(kNaN); }},
        {"orientation_error is not finite", [](Wire& w) { w.orientation_error(kInfinity); }},
        {"momentum_error is not finite", [](Wire& w) { w.momentum_error(-kInfinity); }},
@@ -325,7 +370,7 @@ TEST(Convert, MalformedReportsAreRefusedWithTheReason) {
 }
 
 TEST(Convert, MalformedBodiesAreRefusedWithTheReason) {
-  using Wire = msg::v2::BodyDescription;
+  using Wire = msg::v3::BodyDescription;
   BodyInfo good = sample::body_info(0, 2);
   good.shapes.push_back({corner(), {}});
   good.shapes.push_back({HalfSpace{}, {}});
@@ -333,9 +378,8 @@ TEST(Convert, MalformedBodiesAreRefusedWithTheReason) {
   expect_refusals<BodyInfo, Wire>(
       good,
       {{"body has no generation", [](Wire& w) { w.generation(0); }},
-       {"scene_index is not below", [](Wire& w) { w.scene_index(2); }},
        {"name is not printable", [](Wire& w) { w.name("\xFF"); }},
-       {"kind 3 is unknown", [](Wire& w) { w.kind(static_cast<msg::v2::BodyKind>(3)); }},
+       {"kind 3 is unknown", [](Wire& w) { w.kind(static_cast<msg::v3::BodyKind>(3)); }},
        {"mass is negative", [](Wire& w) { w.mass(-1); }},
        {"inertia is not finite", [](Wire& w) { w.inertia()[4] = kNaN; }},
        {"pose.orientation is not a unit", [](Wire& w) { w.pose().orientation().z(2); }},
@@ -344,7 +388,7 @@ TEST(Convert, MalformedBodiesAreRefusedWithTheReason) {
        {"too many shapes", [](Wire& w) { w.shapes().resize(kMaxShapes + 1); }},
        {"shapes[0]: size is not positive", [](Wire& w) { w.shapes()[0].parameters()[1] = 0; }},
        {"shapes[0]: kind 9 is unknown",
-        [](Wire& w) { w.shapes()[0].kind(static_cast<msg::v2::ShapeKind>(9)); }},
+        [](Wire& w) { w.shapes()[0].kind(static_cast<msg::v3::ShapeKind>(9)); }},
        {"shapes[0]: pose.position.x is not finite",
         [](Wire& w) { w.shapes()[0].pose().position().x(kNaN); }},
        {"shapes[1]: number of vertices", [](Wire& w) { w.shapes()[1].vertices().resize(3); }},

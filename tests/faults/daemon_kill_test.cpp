@@ -1,0 +1,89 @@
+// The daemon killed at random points with clients attached: what it leaves in shared memory is gone
+// once the next one has started, and its clients go on with that one.
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <random>
+#include <set>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "faults/scene.h"
+#include "support/test_domain.h"
+
+namespace poinsot::faults {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Files = std::set<std::string>;
+
+// Rounds: some in a test, more by hand.
+int rounds() {
+  const char* wanted = std::getenv("POINSOT_FAULT_ROUNDS");
+  return wanted != nullptr ? std::atoi(wanted) : 10;
+}
+
+// The segment and the queue that a process has for itself are those that no other living process
+// had before it came: all that it maps, less those.
+Files files_of(pid_t process) {
+  const std::string shm = "/dev/shm/";
+  Files files;
+  std::ifstream maps("/proc/" + std::to_string(process) + "/maps");
+  for (std::string line; std::getline(maps, line);)
+    if (const auto at = line.find(shm); at != std::string::npos) {
+      const std::string name = line.substr(at + shm.size());
+      for (const std::string& file : {name, name + "_el", name + "_sl", "sem." + name + "_mutex"})
+        files.insert(file);
+    }
+  return files;
+}
+
+Files existing(const Files& files) {
+  Files left;
+  for (const std::string& file : files)
+    if (std::filesystem::exists("/dev/shm/" + file)) left.insert(file);
+  return left;
+}
+
+Files without(Files files, const Files& others) {
+  for (const std::string& file : others) files.erase(file);
+  return files;
+}
+
+TEST(DaemonKilled, AtRandomPointsLeavesNothingBehindAndItsClientsGoOn) {
+  const Witness witness(test_domain(), kWorld);
+  std::optional<ChildProcess> holder;
+  std::mt19937 random(20);
+  Files left_behind;
+  double longest = 0;  // [s] from the start of a daemon to its first frame at the witness
+  std::uint64_t session = 0;
+  for (int round = 0; round < rounds(); ++round) {
+    const auto start = Clock::now();
+    std::optional<Daemon> daemon(std::in_place, kWorld);
+    ASSERT_TRUE(eventually([&] { return witness.session() != session && witness.frame() > 0; }))
+        << round;
+    longest = std::max(longest, std::chrono::duration<double>(Clock::now() - start).count());
+    session = witness.session();
+    if (!holder)
+      holder.emplace(POINSOT_FAULT_CLIENT, Words{"hold", std::to_string(test_domain()), kWorld});
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 600));
+    expect_undisturbed(witness, 1);
+
+    Files clients = files_of(getpid());
+    clients.merge(files_of(holder->id()));
+    const Files own = without(files_of(daemon->id()), clients);
+    daemon->signal(SIGKILL);
+    EXPECT_EQ(daemon->wait(), 128 + SIGKILL);
+    EXPECT_EQ(existing(left_behind), Files{}) << round;
+    left_behind = own;
+  }
+  std::printf("%d rounds; a new daemon's frames were there after %.2f s at the most\n", rounds(),
+              longest);
+}
+
+}  // namespace
+}  // namespace poinsot::faults
