@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "poinsot/base/stopwatch.h"
@@ -49,6 +50,10 @@ class PresentationLayer {
   // as it was.
   void restore(const Checkpoint& checkpoint);
   std::size_t checkpoints() const { return ring_.size(); }  // in memory
+  // Of those; of no name: the newest. Nothing if there is none.
+  std::shared_ptr<const Checkpoint> find_checkpoint(std::string_view name) const {
+    return ring_.find(name);
+  }
 
   // Advances to the end of the next frame.
   void advance_frame();
