@@ -45,7 +45,7 @@ bool is_harmless_gap(const Body& gap) {
 }
 
 // Flags, offset, two entities, a sequence number; then which fragments of what.
-bool is_harmless_fragment(const Body& data) {
+bool is_harmless_fragment(const Body& data, std::uint32_t largest) {
   constexpr std::size_t kFirst = 20, kCount = 24, kFragmentSize = 26, kSampleSize = 28, kSize = 32;
   if (data.bytes.size() < kSize) return false;
   const std::uint64_t first = data.at<std::uint32_t>(kFirst);
@@ -53,19 +53,19 @@ bool is_harmless_fragment(const Body& data) {
   const std::uint64_t size = data.at<std::uint16_t>(kFragmentSize);
   const std::uint32_t sample = data.at<std::uint32_t>(kSampleSize);
   // The last one begins inside the sample.
-  return first > 0 && count > 0 && size > 0 && sample <= kMaxFragmented &&
+  return first > 0 && count > 0 && size > 0 && sample <= largest &&
          (first + count - 2) * size < sample;
 }
 
-bool is_harmless(unsigned char kind, const Body& body) {
+bool is_harmless(unsigned char kind, const Body& body, std::uint32_t largest) {
   if (kind == kGap) return is_harmless_gap(body);
-  if (kind == kDataFragment) return is_harmless_fragment(body);
+  if (kind == kDataFragment) return is_harmless_fragment(body, largest);
   return true;
 }
 
 }  // namespace
 
-bool is_harmless(Packet packet) {
+bool is_harmless(Packet packet, std::uint32_t largest) {
   if (packet.size() < kHeader) return false;
   for (Packet rest = packet.subspan(kHeader); !rest.empty();) {
     if (rest.size() < kSubmessageHeader) return false;
@@ -76,7 +76,7 @@ bool is_harmless(Packet packet) {
     // The last submessage may leave its length out: it goes to the end.
     if (length == 0 && kind != kPad && kind != kInfoTimestamp) length = body.bytes.size();
     body.bytes = body.bytes.first(length);
-    if (!is_harmless(kind, body)) return false;
+    if (!is_harmless(kind, body, largest)) return false;
     rest = rest.subspan(kSubmessageHeader + length);
   }
   return true;

@@ -13,9 +13,11 @@
 namespace poinsot {
 
 inline constexpr std::int64_t kMaxGap = 1 << 20;             // sequence numbers in one GAP
-inline constexpr std::uint32_t kMaxFragmented = 256u << 20;  // [bytes]: a body of many meshes
+inline constexpr std::uint32_t kMaxSample = 256u << 20;      // [bytes]: a body of many meshes
+inline constexpr std::uint32_t kMaxCommandSample = 1 << 20;  // [bytes]: a fragment to spawn
 
-// `packet` is a whole RTPS message, its header included.
-bool is_harmless(std::span<const unsigned char> packet);
+// `packet` is a whole RTPS message, its header included. `largest` [bytes]: of a sample that comes
+// in fragments.
+bool is_harmless(std::span<const unsigned char> packet, std::uint32_t largest = kMaxSample);
 
 }  // namespace poinsot

@@ -1,5 +1,6 @@
 #include "poinsot/wire/packet_guard.h"
 
+#include <chrono>
 #include <utility>
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
@@ -18,7 +19,8 @@ using Locator = eprosima::fastrtps::rtps::Locator_t;
 
 class Guard : public rtps::ChainingTransport {
  public:
-  using ChainingTransport::ChainingTransport;
+  Guard(const rtps::ChainingTransportDescriptor& descriptor, std::uint32_t largest)
+      : ChainingTransport(descriptor), largest_(largest) {}
 
   rtps::TransportDescriptorInterface* get_configuration() override {
     return low_level_transport_->get_configuration();
@@ -29,21 +31,30 @@ class Guard : public rtps::ChainingTransport {
   }
   void receive(rtps::TransportReceiverInterface* next, const octet* bytes, std::uint32_t size,
                const Locator& local, const Locator& remote) override {
-    if (is_harmless({bytes, size})) next->OnDataReceived(bytes, size, local, remote);
+    if (is_harmless({bytes, size}, largest_)) next->OnDataReceived(bytes, size, local, remote);
   }
+
+ private:
+  std::uint32_t largest_;
 };
 
-struct GuardDescriptor : rtps::ChainingTransportDescriptor {
-  using rtps::ChainingTransportDescriptor::ChainingTransportDescriptor;
+class GuardDescriptor : public rtps::ChainingTransportDescriptor {
+ public:
+  GuardDescriptor(std::shared_ptr<rtps::TransportDescriptorInterface> transport,
+                  std::uint32_t largest)
+      : ChainingTransportDescriptor(std::move(transport)), largest_(largest) {}
 
-  rtps::TransportInterface* create_transport() const override { return new Guard(*this); }
+  rtps::TransportInterface* create_transport() const override { return new Guard(*this, largest_); }
+
+ private:
+  std::uint32_t largest_;
 };
 
 }  // namespace
 
 std::shared_ptr<rtps::TransportDescriptorInterface> guarded(
-    std::shared_ptr<rtps::TransportDescriptorInterface> transport) {
-  return std::make_shared<GuardDescriptor>(std::move(transport));
+    std::shared_ptr<rtps::TransportDescriptorInterface> transport, std::uint32_t largest) {
+  return std::make_shared<GuardDescriptor>(std::move(transport), largest);
 }
 
 }  // namespace poinsot

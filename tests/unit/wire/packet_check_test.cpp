@@ -79,8 +79,14 @@ TEST(PacketCheck, AFragmentLiesInASampleOfAUsefulSize) {
   EXPECT_FALSE(is_harmless(fragment(1, 0, 1000, 3000)));
   EXPECT_FALSE(is_harmless(fragment(1, 1, 0, 3000)));
   EXPECT_FALSE(is_harmless(fragment(1, 1, 1000, 0)));
-  EXPECT_FALSE(is_harmless(fragment(1, 1, 1000, kMaxFragmented + 1)));
-  EXPECT_FALSE(is_harmless(fragment(0xFFFFFFFF, 0xFFFF, 0xFFFF, kMaxFragmented)));
+  EXPECT_FALSE(is_harmless(fragment(1, 1, 1000, kMaxSample + 1)));
+  EXPECT_FALSE(is_harmless(fragment(0xFFFFFFFF, 0xFFFF, 0xFFFF, kMaxSample)));
+}
+
+TEST(PacketCheck, WhoReadsCommandsOnlyHasNoUseForMore) {
+  EXPECT_TRUE(is_harmless(fragment(1, 1, 1000, 2'000'000)));
+  EXPECT_FALSE(is_harmless(fragment(1, 1, 1000, 2'000'000), kMaxCommandSample));
+  EXPECT_TRUE(is_harmless(fragment(1, 1, 1000, 70'000), kMaxCommandSample));
 }
 
 TEST(PacketCheck, LooksBehindOtherSubmessages) {
