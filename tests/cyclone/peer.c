@@ -159,6 +159,10 @@ static int is_met(const Peer* peer) {
          met(peer->bus.poses) > 0 && met(peer->bus.events) > 0;
 }
 
+static int has_poses(const Peer* peer) {
+  return peer->poses > 0;
+}
+
 static int has_reply(const Peer* peer) {
   return peer->replied == peer->seq;
 }
@@ -216,6 +220,7 @@ int main(int argc, char** argv) {
   peer.bus = join((dds_domainid_t)atoi(argv[1]), argv[2]);
   need(&peer, is_met, "a daemon");
   need(&peer, has_scene, "the whole scene");
+  need(&peer, has_poses, "a frame");
 
   push(&peer, atof(argv[4]), atof(argv[5]), atof(argv[6]), atof(argv[7]));
   control(&peer, CONTROL_RESUME);
