@@ -153,7 +153,7 @@ TEST(ClientTest, ListsTheWorldsIfThereAreSeveral) {
   EXPECT_EQ(
       text_of_no_answer([&] { unnamed.wait_for_server(kPatience); }),
       "several worlds on domain " + std::to_string(test_domain()) + ", name one of them: one, two");
-  EXPECT_EQ(find_worlds(test_domain(), false, 500ms), (Names{"one", "two"}));
+  EXPECT_EQ(find_worlds(on_test_domain(""), 500ms), (Names{"one", "two"}));
   Client wrong(on_test_domain("three"));
   EXPECT_EQ(text_of_no_answer([&] { wrong.wait_for_server(500ms); }),
             "world 'three' not found on domain " + std::to_string(test_domain()) +
