@@ -37,8 +37,6 @@ struct Options {
   bool offline = false;
   bool supervise = false;
   bool take_over = false;
-  std::string partition;
-  std::string discovery_server;
   std::string data;
   std::string restore;
   std::chrono::nanoseconds autosave{};
@@ -65,10 +63,6 @@ CLI::App* add_run(CLI::App& app, Options& o) {
   add_bus_options(*run, o.bus);
   run->add_option("--world", o.world, "Name on the bus (default: the scene's)");
   run->add_flag("--take-over", o.take_over, "Serve the world though another daemon does");
-  run->add_option("--partition", o.partition, "DDS partition: only who names it as well is met");
-  run->add_option("--discovery-server", o.discovery_server,
-                  "Discovery server that makes daemon and clients known to each other")
-      ->type_name("HOST:PORT");
   auto* fast =
       run->add_flag("--fast", o.fast, "Frames as fast as they can be advanced, not in real time");
   run->add_option("--scale", o.scale, "Simulated seconds per second; 0: as fast as it can")
@@ -182,8 +176,8 @@ void run(const Options& o, StopSignals& signals) {
 #ifdef POINSOT_BUS
   const DaemonOptions options{.domain = o.bus.domain,
                               .lan = o.bus.lan,
-                              .partition = o.partition,
-                              .discovery_server = o.discovery_server,
+                              .partition = o.bus.partition,
+                              .discovery_server = o.bus.discovery_server,
                               .world = o.world,
                               .take_over = o.take_over,
                               .scale = o.fast ? 0 : o.scale,
