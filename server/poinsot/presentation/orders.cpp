@@ -138,8 +138,9 @@ std::optional<Refusal> PresentationLayer::restore(const Order& order) {
     const auto names = ring_.names();
     if (names.empty()) return Refusal{ResultCode::not_found, "no checkpoint is in memory"};
     std::string reason = "no checkpoint '" + name + "' is in memory; there are";
+    const char* separator = " ";
     for (const std::string_view known : names)
-      reason.append(reason.back() == 'e' ? " " : ", ").append(known);
+      reason.append(std::exchange(separator, ", ")).append(known);
     return Refusal{ResultCode::not_found, std::move(reason)};
   }
   try {
