@@ -446,7 +446,10 @@ double SimulationLayer::momentum_error() const {
 void SimulationLayer::hash_into(Hash64& hash) const {
   for (std::size_t k = 0; k < methods_.size(); ++k) {
     hash.add(static_cast<std::uint64_t>(methods_[k]));
-    if (methods_[k] == Method::flight) flights_[k].hash_into(hash);
+    if (methods_[k] != Method::flight) continue;
+    Hash64 flight;  // digests of their own do not wait for one another
+    flights_[k].hash_into(flight);
+    hash.add(flight.value());
   }
   for (const auto* memories : {&memories_, &system_memories_})
     for (const StepMemory& memory : *memories) {
