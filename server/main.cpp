@@ -1,5 +1,6 @@
 // poinsotd: runs, checks, studies or replays a scene. Options → scene → run → exit code.
 
+#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <future>
@@ -7,10 +8,12 @@
 #include <thread>
 
 #include "poinsot/base/error.h"
+#include "poinsot/program/documentation.h"
 #include "poinsot/program/exit_code.h"
 #include "poinsot/program/log.h"
 #include "poinsot/program/options.h"
 #include "poinsot/program/signals.h"
+#include "poinsot/protocol/run_control.h"
 #include "poinsot/runner/load_scene.h"
 #include "poinsot/runner/replay.h"
 #include "poinsot/runner/run_offline.h"
@@ -18,6 +21,7 @@
 #ifdef POINSOT_BUS
 #include "poinsot/service/client_command.h"
 #include "poinsot/service/run_daemon.h"
+#include "poinsot/service/supervisor.h"
 #endif
 
 namespace poinsot {
@@ -28,8 +32,14 @@ struct Options {
   BusFlags bus;
   std::string world;
   bool fast = false;
+  double scale = 1;
   bool paused = false;
   bool offline = false;
+  bool supervise = false;
+  bool take_over = false;
+  std::string data;
+  std::string restore;
+  std::chrono::nanoseconds autosave{};
   bool json = false;
   std::uint64_t frames = 0;
   std::string trajectory;
@@ -52,14 +62,32 @@ CLI::App* add_run(CLI::App& app, Options& o) {
       ->capture_default_str();
   add_bus_options(*run, o.bus);
   run->add_option("--world", o.world, "Name on the bus (default: the scene's)");
-  run->add_flag("--fast", o.fast, "Frames as fast as they can be advanced, not in real time");
+  run->add_flag("--take-over", o.take_over, "Serve the world though another daemon does");
+  auto* fast =
+      run->add_flag("--fast", o.fast, "Frames as fast as they can be advanced, not in real time");
+  run->add_option("--scale", o.scale, "Simulated seconds per second; 0: as fast as it can")
+      ->check(CLI::Range(0.0, kMaxTimeScale))
+      ->capture_default_str()
+      ->excludes(fast);
   run->add_option("--frames", o.frames, "End after so many frames")->check(CLI::PositiveNumber);
   run->add_flag("--paused", o.paused, "Start paused: wait for resume or step");
   run->add_flag("--offline", o.offline, "No bus and no pacing");
   run->add_option("--trajectory", o.trajectory, "Write every frame to this CSV file");
+  run->add_option("--data", o.data,
+                  "Directory of checkpoints and logs [environment variable POINSOT_DATA_DIR, or "
+                  "~/.local/state/poinsot]");
+  run->add_option(
+      "--restore", o.restore,
+      "Begin with this checkpoint; 'latest': the newest, or the scene if there is none");
+  add_duration_option(*run, "--autosave", o.autosave,
+                      "Checkpoint on disk so often; the last three are kept");
+  run->add_flag("--supervise", o.supervise,
+                "Start the daemon again when it fails, from the last autosave")
+      ->excludes(run->get_option("--offline"));
   run->add_flag("--json", o.json, "Only the closing summary, as one line of JSON");
   run->add_option("--commands", o.commands, "Do what this command log says (--offline)");
-  run->add_option("--record", o.record, "Write a command log to this file (--offline)");
+  run->add_option("--record", o.record,
+                  "Write a command log of this name; with --offline: to this file");
   add_threads(*run, o);
   add_verbose_option(*run, o.verbosity);
   return run;
@@ -145,22 +173,52 @@ void run(const Options& o, StopSignals& signals) {
   if (o.threads != 0) scene.collision.threads = o.threads;
   if (o.offline) return run_without_bus(std::move(scene), o, signals);
   if (!o.commands.empty()) throw Error("--commands: needs --offline");
-  if (!o.record.empty()) throw Error("--record: needs --offline");
 #ifdef POINSOT_BUS
   const DaemonOptions options{.domain = o.bus.domain,
                               .lan = o.bus.lan,
+                              .partition = o.bus.partition,
+                              .discovery_server = o.bus.discovery_server,
                               .world = o.world,
-                              .fast = o.fast,
+                              .take_over = o.take_over,
+                              .scale = o.fast ? 0 : o.scale,
                               .paused = o.paused,
                               .frames = o.frames,
                               .client = client_command(program(), search_path()),
-                              .trajectory = o.trajectory};
+                              .trajectory = o.trajectory,
+                              .data = o.data,
+                              .restore = o.restore,
+                              .record = o.record,
+                              .autosave = o.autosave};
   const Logger logger = make_logger("poinsotd", spdlog::level::info, o.verbosity);
   run_daemon(std::move(scene), options, o.json, signals, logger, std::cout);
 #else
   throw Error("this poinsotd was built without a bus (POINSOT_BUILD_BUS=OFF): add --offline");
 #endif
 }
+
+#ifdef POINSOT_BUS
+// The command line without --supervise. After a failure the world is free, whatever discovery still
+// says, and the run goes on from where it was saved.
+Supervision supervision(const Options& o, int argc, const char* const* argv) {
+  Supervision result;
+  result.first = {program().string()};
+  for (int i = 1; i < argc; ++i)
+    if (std::string_view(argv[i]) != "--supervise") result.first.emplace_back(argv[i]);
+  result.again = result.first;
+  if (o.autosave.count() > 0) {
+    std::vector<std::string> kept;
+    for (std::size_t i = 0; i < result.again.size(); ++i) {
+      const std::string& word = result.again[i];
+      if (word == "--restore") ++i;  // and its value
+      if (!word.starts_with("--restore")) kept.push_back(word);
+    }
+    result.again = std::move(kept);
+    result.again.insert(result.again.end(), {"--restore", kLatest});
+  }
+  if (!o.take_over) result.again.emplace_back("--take-over");
+  return result;
+}
+#endif
 
 void check(const Options& o) {
   const std::filesystem::path file = scene_file(o.scene);
@@ -180,8 +238,18 @@ int main_of(int argc, const char* const* argv) {
   const CLI::App* study_command = add_study(app, options);
   const CLI::App* replay_command = add_replay(app, options);
   add_check(app, options);
+  const DocumentationVerbs documentation(app, "poinsot(1)");
   if (const auto code = parse_command_line(app, argc, argv, std::cout, std::cerr)) return *code;
+  if (const auto text = documentation.text()) {
+    std::cout << *text;
+    return to_int(ExitCode::ok);
+  }
   try {
+#ifdef POINSOT_BUS
+    if (run_command->parsed() && options.supervise)
+      return supervise(supervision(options, argc, argv),
+                       make_logger("poinsotd", spdlog::level::info, options.verbosity));
+#endif
     if (replay_command->parsed()) return to_int(replay_log(options, signals));
     if (run_command->parsed())
       run(options, signals);

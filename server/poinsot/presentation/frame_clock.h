@@ -1,5 +1,6 @@
 // Frame clock: frame n is due at t0 + n·T, an absolute deadline, so that errors of single frames do
-// not add up. Waiting is sleep until shortly before the deadline, then a spin.
+// not add up. Waiting is sleep until shortly before the deadline, then a spin. A change of T begins
+// a new t0: nothing is owed from before.
 //
 // A frame that comes late by less than a period keeps its deadline, and the next ones catch up. One
 // that comes later than that starts the clock afresh from now: simulated time never skips, and a
@@ -29,6 +30,24 @@ class FrameClock {
     restart();
   }
 
+  // Frames per second of the clock's time, from now on.
+  void set_rate(double frame_rate) {
+    POINSOT_CHECK(frame_rate > 0);
+    period_ = 1e9 / frame_rate;
+    restart();
+  }
+
+  // All deadlines to come move by so much [ns]: what held the run up was not the run's.
+  void postpone(std::int64_t by) { start_ += by; }
+
+  // Sleeps towards the next deadline, for at most `slice` [ns]. True: it is nearer than that.
+  bool approach(std::int64_t slice) {
+    const std::int64_t now = time_.now();
+    if (due(frame_ + 1) - now <= slice) return true;
+    time_.sleep_until(now + slice);
+    return false;
+  }
+
   // The next frame is due one period from now.
   void restart() {
     start_ = time_.now();
@@ -37,30 +56,39 @@ class FrameClock {
 
   // Waits until the next frame is due. False if it was overdue.
   bool wait() {
-    ++frame_;
-    const std::int64_t due = start_ + std::llround(static_cast<double>(frame_) * period_);
-    const std::int64_t now = time_.now();
-    if (now <= due) {
-      if (due - now > kSpin && !time_.sleep_until(due - kSpin)) return true;
-      while (time_.now() < due) {
+    const std::int64_t deadline = due(++frame_);
+    std::int64_t now = time_.now();
+    if (now <= deadline) {
+      if (deadline - now > kSpin && !time_.sleep_until(deadline - kSpin)) return true;
+      while ((now = time_.now()) < deadline) {
       }
+      lateness_ = now - deadline;
       return true;
     }
+    lateness_ = now - deadline;
     ++overruns_;
-    if (static_cast<double>(now - due) >= period_) {
+    if (static_cast<double>(lateness_) >= period_) {
       start_ = now;
       frame_ = 0;
     }
     return false;
   }
 
+  std::int64_t lateness() const {
+    return lateness_;
+  }  // [ns] that the last wait ended after its due
   std::uint64_t overruns() const { return overruns_; }  // frames that came late so far
 
  private:
+  std::int64_t due(std::int64_t frame) const {
+    return start_ + std::llround(static_cast<double>(frame) * period_);
+  }
+
   Time time_;
   double period_;           // [ns]
   std::int64_t start_ = 0;  // [ns] t0
   std::int64_t frame_ = 0;  // n of the last wait
+  std::int64_t lateness_ = 0;
   std::uint64_t overruns_ = 0;
 };
 

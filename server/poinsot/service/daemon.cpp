@@ -1,9 +1,10 @@
 #include "poinsot/service/daemon.h"
 
+#include <algorithm>
 #include <random>
 #include <utility>
 
-#include "poinsot/service/body_infos.h"
+#include "poinsot/service/run_store.h"
 
 namespace poinsot {
 namespace {
@@ -24,7 +25,12 @@ std::optional<Trajectory> open_trajectory(const DaemonOptions& options,
 BusOptions prepare_bus(const DaemonOptions& options, std::size_t bodies, const Logger& logger) {
   if (const int removed = remove_stale_segments(); removed > 0)
     logger->info("stale_segments_removed files={}", removed);
-  return {.domain = options.domain, .lan = options.lan, .bodies = bodies};
+  return {.domain = options.domain,
+          .lan = options.lan,
+          .bodies = bodies,
+          .commands_only = true,
+          .partition = options.partition,
+          .discovery_server = options.discovery_server};
 }
 
 }  // namespace
@@ -34,15 +40,17 @@ Daemon::Daemon(Scene scene, const DaemonOptions& options, Logger logger,
     : logger_(std::move(logger)),
       world_(options.world.empty() ? scene.world : options.world),
       session_(random_session()),
-      layer_(std::move(scene)),
+      store_(open_store(options, world_)),
+      layer_(first_state(std::move(scene), options)),
       trajectory_(open_trajectory(options, layer_)),
-      outbox_(layer_.snapshot().bodies.size()),
-      loop_(layer_, inbox_, outbox_, loop_options(options)),
+      outbox_(layer_.snapshot().bodies.size(), [this] { inbox_.nudge(); }),
+      clients_(options.limits),
+      loop_(layer_, inbox_, outbox_, clients_, disk_, loop_options(options)),
       participant_(prepare_bus(options, layer_.snapshot().bodies.size(), logger_)),
-      publisher_(participant_, world_, outbox_,
-                 body_infos(layer_.scene(), layer_.world(), session_), session_, logger_),
+      publisher_(participant_, world_, outbox_, session_, logger_),
       receiver_(
-          participant_, world_, inbox_, outbox_, [this] { return loop_.epoch(); }, logger_) {
+          participant_, world_, inbox_, outbox_, clients_, [this] { return loop_.epoch(); },
+          logger_) {
   logger_->info("started world={} session={:016x} domain={} reach={} bodies={}",
                 poinsot::quoted(world_), session_, options.domain, options.lan ? "lan" : "local",
                 layer_.scene().bodies.size());
@@ -59,10 +67,29 @@ Daemon::~Daemon() {
   join_threads();
 }
 
+PresentationLayer Daemon::first_state(Scene scene, const DaemonOptions& options) const {
+  PresentationLayer layer(std::move(scene));
+  if (!store_) return layer;
+  if (const auto checkpoint = first_checkpoint(options, *store_, logger_)) {
+    layer.restore(*checkpoint);
+    logger_->info("restored name={} frame={} hash={:016x}", poinsot::quoted(checkpoint->name),
+                  checkpoint->frame, checkpoint->state_hash);
+  }
+  return layer;
+}
+
+bool Daemon::is_taken() const {
+  const std::vector<std::string> worlds = participant_.worlds();
+  return std::binary_search(worlds.begin(), worlds.end(), world_);
+}
+
 FrameLoopOptions Daemon::loop_options(const DaemonOptions& options) {
-  return {.fast = options.fast,
+  return {.scale = options.scale,
           .paused = options.paused,
           .frames = options.frames,
+          .record = options.record,
+          .autosave_ns = options.autosave.count(),
+          .store = store_ ? run_store(*store_, world_, logger_) : RunStore{},
           .each_frame = [this](const PresentationLayer& layer) {
             if (trajectory_) trajectory_->write(layer.world(), layer.frame());
           }};

@@ -1,251 +1,222 @@
 #include "poinsot/service/frame_loop.h"
 
 #include <algorithm>
-#include <string>
 #include <tuple>
 #include <utility>
 
 namespace poinsot {
 namespace {
 
-constexpr std::chrono::milliseconds kReportInterval{200};
-constexpr std::chrono::milliseconds kWindow{150};  // shorter ones are too noisy to tell a pace
+// The longest [ns] that a paced run waits for a frame without looking into its inbox: a run that is
+// slowed down answers nevertheless.
+constexpr std::int64_t kDeaf = 100'000'000;
 
-constexpr auto by_key = [](const auto& a, const auto& b) {
-  return std::tuple(a.client, a.seq) < std::tuple(b.client, b.seq);
-};
-constexpr auto same_key = [](const auto& a, const auto& b) {
-  return std::tuple(a.client, a.seq) == std::tuple(b.client, b.seq);
-};
+const WrenchCommand& identity(const WrenchCommand& command) {
+  return command;
+}
+const RunControl& identity(const Order& order) {
+  return order.control;
+}
+auto key(const auto& command) {
+  return std::pair(identity(command).client, identity(command).seq);
+}
+constexpr auto by_key = [](const auto& a, const auto& b) { return key(a) < key(b); };
+constexpr auto same_key = [](const auto& a, const auto& b) { return key(a) == key(b); };
 
 }  // namespace
 
 FrameLoop::FrameLoop(PresentationLayer& layer, CommandInbox& inbox, Outbox& outbox,
-                     FrameLoopOptions options)
+                     Clients& clients, DiskWorker& disk, FrameLoopOptions options)
     : layer_(layer),
       inbox_(inbox),
       outbox_(outbox),
+      clients_(clients),
+      disk_(disk),
       options_(std::move(options)),
+      clock_(SteadyTime{}, layer.frame_rate()),
+      meter_(layer.frame_rate(), SteadyTime::now()),
+      scale_(options_.scale),
       paused_(options_.paused),
       epoch_(layer.epoch()) {
-  replies_.reserve(CommandInbox::kCapacity);
+  replies_.reserve(CommandInbox::kWrenches);
   report_.body_methods.reserve(layer_.body_methods().size());
+  report_.clients.reserve(kMaxClients);
 }
 
 void FrameLoop::run(const std::stop_token& stop) {
   SteadyTime::sharpen_sleeps();
-  FrameClock clock(SteadyTime{stop}, layer_.frame_rate());
-  start_window();
+  clock_ = FrameClock(SteadyTime{stop}, layer_.frame_rate());
+  if (scale_ > 0) clock_.set_rate(layer_.frame_rate() * scale_);
+  begin_pace();
+  if (!options_.record.empty()) begin_recording(options_.record);
   hand_over();
   report();
-  while (!done()) {
-    if (idle()) {
-      inbox_.wait(stop);
-      clock.restart();
-      start_window();
-    } else if (!options_.fast && !step_) {
-      clock.wait();
-    }
+  if (is_unsaved()) autosave();  // the newest on disk is of this run from its beginning
+  while (!over()) {
+    const bool due = await_turn(stop);
     if (stop.stop_requested()) break;
-    const bool was_stepping = step_.has_value();
+    const std::int64_t began = SteadyTime::now();
     obey_inbox();
-    if (!idle()) advance();
-    if (was_stepping && !step_) clock.restart();
-    overruns_ = clock.overruns();
+    if (due && !idle() && !over() && await_inputs(stop)) advance(began);
+    overruns_ = clock_.overruns();
+    autosave_now_and_then();
     report_now_and_then();
   }
-  end_step(ResultCode::operation_failed, "the daemon ends");
-  refuse_the_rest();
-  report(RunState::quitting);
+  end_run();
 }
 
-// Every command gets its reply, those that came too late to act as well.
-void FrameLoop::refuse_the_rest() {
-  inbox_.take(batch_);
-  answer_known();
-  for (const RunControl& control : batch_.controls)
-    answer(control, ResultCode::operation_failed, "the daemon ends");
-  for (const WrenchCommand& command : batch_.wrenches) {
-    Reply reply;
-    reply.client = command.client;
-    reply.seq = command.seq;
-    reply.epoch = layer_.epoch();
-    reply.code = ResultCode::operation_failed;
-    reply.message = "the daemon ends";
-    send(reply);
+// True if a frame is due.
+bool FrameLoop::await_turn(const std::stop_token& stop) {
+  const bool paced = !idle() && is_paced();
+  if (paced && !was_paced_) begin_pace();
+  was_paced_ = paced;
+  if (paced) {
+    if (!clock_.approach(kDeaf)) return false;
+    clock_.wait();
+  } else if (idle()) {
+    inbox_.wait(stop, is_unsaved() ? last_autosave_ + options_.autosave_ns : INT64_MAX);
+    meter_.restart(SteadyTime::now());
   }
+  return true;
 }
 
-void FrameLoop::advance() {
+void FrameLoop::begin_pace() {
+  clock_.restart();
+  meter_.restart(SteadyTime::now());
+}
+
+// Until every client in lock step has said that its input is complete; not longer than the shortest
+// of their time-outs. False: what came meanwhile stopped the run.
+bool FrameLoop::await_inputs(const std::stop_token& stop) {
+  if (lock_step_.ready()) return true;
+  const std::int64_t began = SteadyTime::now();
+  while (!lock_step_.ready()) {
+    if (!inbox_.wait(stop, began + lock_step_.timeout_ns())) {
+      if (stop.stop_requested()) return false;
+      ++late_inputs_;
+      break;
+    }
+    obey_inbox();
+    if (idle() || over()) return false;
+  }
+  clock_.postpone(SteadyTime::now() - began);
+  return true;
+}
+
+void FrameLoop::advance(std::int64_t began) {
   layer_.advance_frame();
   ++frames_;
+  recording_.frame(layer_.frame(), layer_.snapshot().state_hash);
   hand_over();
-  if (step_ && layer_.frame() >= step_->target) end_step(ResultCode::ok, "");
+  answer_inputs(ResultCode::ok, "");
+  const std::int64_t now = SteadyTime::now();
+  meter_.frame(now);
+  if (is_paced()) meter_.paced(clock_.lateness(), now - began);
+  if (goal_ && layer_.frame() >= goal_->target) {
+    paused_ = true;
+    end_goal(ResultCode::ok, "");
+  }
 }
 
 void FrameLoop::hand_over() {
-  outbox_.push(layer_.impacts());
-  outbox_.push(layer_.snapshot());
+  publish();
   if (options_.each_frame) options_.each_frame(layer_);
 }
 
-// Commands -------------------------------------------------------------------------------------
+void FrameLoop::publish() {
+  outbox_.push(scene_changes_.since_last(layer_));
+  outbox_.push(layer_.impacts());
+  outbox_.push(layer_.snapshot());
+  offer();
+}
+
+// What is made only while somebody wants it.
+void FrameLoop::offer() {
+  const auto now = std::pair(layer_.epoch(), layer_.frame());
+  if (!outbox_.contacts_wanted()) {
+    contacts_told_ = {};
+  } else if (std::exchange(contacts_told_, now) != now) {
+    layer_.contacts(contacts_);
+    outbox_.swap_in(contacts_);
+  }
+  if (!outbox_.held_wanted()) {
+    held_told_ = kNotTold;
+  } else if (std::exchange(held_told_, layer_.held_revision()) != layer_.held_revision()) {
+    layer_.held(held_);
+    outbox_.swap_in(held_);
+  }
+}
 
 void FrameLoop::obey_inbox() {
   inbox_.take(batch_);
-  if (batch_.empty()) return;
+  if (batch_.empty()) return offer();  // a nudge, perhaps
+  for (const Reply& result : batch_.results) send(result);
   answer_known();
-  // Controls split the pushes: what a client sent before its reset is not taken after it.
+  recording_.begin_turn(layer_.frame() + 1, layer_.epoch());
+  // Orders split the pushes: what a client sent before its reset is not taken after it.
   std::span<const WrenchCommand> left = batch_.wrenches;
-  for (const RunControl& control : batch_.controls) {
+  for (const Order& order : batch_.orders) {
     const auto before = static_cast<std::size_t>(
         std::partition_point(left.begin(), left.end(),
-                             [&](const auto& wrench) { return by_key(wrench, control); }) -
+                             [&](const auto& wrench) { return by_key(wrench, order); }) -
         left.begin());
     accept(left.first(before));
     left = left.subspan(before);
-    obey(control);
+    obey(order);
   }
   accept(left);
+  recording_.end_turn();
+  if (idle()) offer();  // what is held may be another list
 }
 
-// Sorts the batch; what has been answered before is answered again and goes no further.
+// Sorts the batch; what has been answered before is answered again and goes no further, nor does
+// what is under way.
 void FrameLoop::answer_known() {
   const auto settle = [&](auto& commands) {
     std::erase_if(commands, [&](const auto& command) {
-      const Reply* reply = answered_.find(command.client, command.seq);
+      const auto& [client, seq] = key(command);
+      const Reply* reply = answered_.find(client, seq);
       if (reply) outbox_.push(*reply);
-      return reply != nullptr;
+      return reply != nullptr || answered_.is_under_way(client, seq);
     });
     std::stable_sort(commands.begin(), commands.end(), by_key);  // the first to arrive counts
     commands.erase(std::unique(commands.begin(), commands.end(), same_key), commands.end());
   };
   settle(batch_.wrenches);
-  settle(batch_.controls);
+  settle(batch_.orders);
+  if (batch_.own.empty()) return;
+  std::move(batch_.own.begin(), batch_.own.end(), std::back_inserter(batch_.orders));
+  std::stable_sort(batch_.orders.begin(), batch_.orders.end(), by_key);
 }
 
 void FrameLoop::accept(std::span<const WrenchCommand> commands) {
+  if (commands.empty()) return;
+  recording_.note(commands);
   replies_.clear();
   layer_.accept(commands, replies_);
   for (const Reply& reply : replies_) send(reply);
 }
 
-std::optional<Refusal> FrameLoop::check(const RunControl& control) const {
-  if (control.seq == 0)
-    return Refusal{ResultCode::invalid_value, "seq is 0: a client counts from 1"};
-  if (control.epoch != 0 && control.epoch != layer_.epoch())
-    return Refusal{ResultCode::wrong_epoch, "meant for epoch " + std::to_string(control.epoch) +
-                                                "; epoch " + std::to_string(layer_.epoch()) +
-                                                " runs"};
-  if (control.action > ControlAction::reset)
-    return Refusal{ResultCode::invalid_value, "action is " +
-                                                  std::to_string(static_cast<int>(control.action)) +
-                                                  ": the largest known value is 3"};
-  if (control.action != ControlAction::step) return std::nullopt;
-  if (control.frames == 0 || control.frames > kMaxStepFrames)
-    return Refusal{ResultCode::invalid_value, "frames is " + std::to_string(control.frames) +
-                                                  ": a step has 1 to " +
-                                                  std::to_string(kMaxStepFrames)};
-  if (!paused_)
-    return Refusal{ResultCode::incorrect_state, "the run is not paused: pause it first"};
-  if (step_)
-    return Refusal{ResultCode::incorrect_state,
-                   "a step is under way until frame " + std::to_string(step_->target)};
-  return std::nullopt;
-}
-
-void FrameLoop::obey(const RunControl& control) {
-  if (step_ && same_key(step_->control, control)) return;  // sent again; answered when done
-  if (const auto refusal = check(control)) return answer(control, refusal->code, refusal->reason);
-  if (control.action == ControlAction::step) {
-    step_ = Step{control, layer_.frame() + control.frames};
-    return;
+// Every command gets its reply, those that came too late to act as well.
+void FrameLoop::end_run() {
+  const std::string why = "the daemon ends";
+  end_goal(ResultCode::operation_failed, why);
+  answer_inputs(ResultCode::operation_failed, why);
+  std::shared_ptr<CommandLogWriter> log = recording_.end();
+  disk_.stop();  // what waits for it is done, and answered below
+  log.reset();
+  inbox_.take(batch_);
+  for (const Reply& result : batch_.results) send(result);
+  answer_known();
+  for (const Order& order : batch_.orders)
+    if (order.control.seq != kOwnSeq) answer(order.control, ResultCode::operation_failed, why);
+  RunControl late;
+  for (const WrenchCommand& command : batch_.wrenches) {
+    late.client = command.client;
+    late.seq = command.seq;
+    send(reply_to(late, ResultCode::operation_failed, why));
   }
-  end_step(
-      ResultCode::operation_failed,
-      "ended early by " + std::string(name_of<ControlAction>(kControlActionNames, control.action)));
-  if (control.action == ControlAction::reset) {
-    layer_.reset();
-    epoch_ = layer_.epoch();
-    hand_over();
-  } else {
-    paused_ = control.action == ControlAction::pause;
-  }
-  answer(control, ResultCode::ok, "");
-}
-
-void FrameLoop::end_step(ResultCode code, const std::string& message) {
-  if (!step_) return;
-  const RunControl control = std::exchange(step_, std::nullopt)->control;
-  answer(control, code, message);
-}
-
-void FrameLoop::answer(const RunControl& control, ResultCode code, const std::string& message) {
-  Reply reply;
-  reply.client = control.client;
-  reply.seq = control.seq;
-  reply.epoch = layer_.epoch();
-  reply.code = code;
-  reply.message = message;
-  reply.first_frame = reply.last_frame = layer_.frame();
-  reply.state_hash = layer_.snapshot().state_hash;
-  report();
-  send(reply);
-}
-
-void FrameLoop::send(const Reply& reply) {
-  ++(reply.code == ResultCode::ok ? accepted_ : refused_);
-  if (reply.seq != 0) answered_.insert(reply);  // seq 0 is nobody's
-  outbox_.push(reply);
-}
-
-// Reports --------------------------------------------------------------------------------------
-
-void FrameLoop::start_window() {
-  window_start_ = Clock::now();
-  frames_at_window_start_ = frames_;
-}
-
-void FrameLoop::report_now_and_then() {
-  const Clock::time_point now = Clock::now();
-  if (now - window_start_ >= kWindow) {
-    const double wall = std::chrono::duration<double>(now - window_start_).count();
-    const auto frames = static_cast<double>(frames_ - frames_at_window_start_);
-    real_time_factor_ = frames / layer_.frame_rate() / wall;
-    start_window();
-  }
-  if (now - last_report_ >= kReportInterval) report();
-}
-
-void FrameLoop::report() {
-  report(paused_ ? RunState::paused : RunState::playing);
-}
-
-void FrameLoop::report(RunState state) {
-  const std::uint64_t full = inbox_.full();
-  report_.epoch = layer_.epoch();
-  report_.state = state;
-  report_.frame = layer_.report();
-  if (full > full_at_last_report_)
-    report_.frame.flags = report_.frame.flags | FrameFlag::inbox_full;
-  if (overruns_ > overruns_at_last_report_)
-    report_.frame.flags = report_.frame.flags | FrameFlag::overrun;
-  const auto methods = layer_.body_methods();
-  report_.body_methods.assign(methods.begin(), methods.end());
-  report_.frame_rate = layer_.frame_rate();
-  report_.real_time_factor = state == RunState::playing ? real_time_factor_ : 0;
-  report_.scene_bodies = layer_.scene_bodies();
-  report_.scene_revision = layer_.scene_revision();
-  report_.state_hash = layer_.snapshot().state_hash;
-  report_.overruns = overruns_;
-  report_.commands_accepted = accepted_;
-  report_.commands_refused = refused_ + inbox_.refused();
-  report_.times = layer_.times();
-  outbox_.push(report_);
-
-  last_report_ = Clock::now();
-  overruns_at_last_report_ = overruns_;
-  full_at_last_report_ = full;
+  report(RunState::quitting);
 }
 
 }  // namespace poinsot

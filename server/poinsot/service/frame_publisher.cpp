@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "poinsot/service/utc_time.h"
 #include "poinsot/wire/topics.h"
 
 namespace poinsot {
@@ -11,28 +12,26 @@ namespace {
 // How long a new reader of poses may go unnoticed while no frame is advanced.
 constexpr std::chrono::milliseconds kLookForReaders{100};
 
-std::int64_t now_utc_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
 }  // namespace
 
 FramePublisher::FramePublisher(Participant& participant, const std::string& world, Outbox& outbox,
-                               std::vector<BodyInfo> scene, std::uint64_t session, Logger logger)
+                               std::uint64_t session, Logger logger)
     : outbox_(outbox),
       session_(session),
-      scene_(std::move(scene)),
+      streams_(participant, world, session, logger),
       scene_topic_(participant, world),
       poses_topic_(participant, world),
       report_topic_(participant, world),
       reply_topic_(participant, world),
       events_topic_(participant, world),
+      contacts_topic_(participant, world),
+      held_topic_(participant, world),
       logger_(std::move(logger)),
       failures_(std::chrono::seconds(1)) {
   // These change places with the outbox's: the same room on both sides, or the loop would allocate.
-  snapshot_.bodies.reserve(scene_.size());
-  report_.body_methods.reserve(scene_.size());
+  const std::size_t bodies = outbox_.bodies();
+  snapshot_.bodies.reserve(bodies);
+  report_.body_methods.reserve(bodies);
   replies_.reserve(Outbox::kReplies);
   impacts_.reserve(Outbox::kImpacts);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -44,7 +43,6 @@ void FramePublisher::stop() {
 }
 
 void FramePublisher::run(const std::stop_token& stop) {
-  for (const BodyInfo& body : scene_) write(scene_topic_, body);
   while (!stop.stop_requested()) {
     const bool quiet = !outbox_.wait(stop, kLookForReaders);
     send(quiet);
@@ -56,15 +54,14 @@ void FramePublisher::send(bool quiet) {
   Elapsed lap;
   {
     const Stopwatch::Lap timer(lap);
+    // A report tells how many bodies there are: it follows their descriptions.
+    const bool has_report = outbox_.take(report_);
+    send_scene();
     send_impacts();
+    send_contacts();
+    send_held(quiet);
     send_poses(quiet);
-    if (outbox_.take(report_)) {
-      report_.session = session_;
-      report_.snapshots_dropped = outbox_.snapshots_dropped();
-      report_.events_dropped = outbox_.impacts_dropped();
-      report_.times.publishing = elapsed();
-      write(report_topic_, report_);
-    }
+    if (has_report) write_report();
     // Last: who reads a reply finds the frame and the report that it speaks of.
     if (outbox_.take(replies_))
       for (const Reply& reply : replies_) write(reply_topic_, reply);
@@ -73,14 +70,44 @@ void FramePublisher::send(bool quiet) {
   elapsed_ += lap;
 }
 
+void FramePublisher::write_report() {
+  report_.session = session_;
+  report_.snapshots_dropped = outbox_.snapshots_dropped();
+  report_.events_dropped = outbox_.impacts_dropped();
+  report_.streams = streams_.count();
+  report_.times.publishing = elapsed();
+  write(report_topic_, report_);
+}
+
+void FramePublisher::send_scene() {
+  if (!outbox_.take(change_)) return;
+  for (const BodyId id : change_.removed) {
+    BodyInfo gone;
+    gone.id = id;
+    scene_topic_.remove(gone);  // unknown if it went before it was sent
+    std::erase_if(bodies_, [id](const NamedBody& body) { return body.id == id; });
+  }
+  for (BodyInfo& body : change_.added) {
+    body.session = session_;
+    write(scene_topic_, body);
+    std::erase_if(bodies_, [&](const NamedBody& known) { return known.id == body.id; });
+    bodies_.push_back({body.id, body.name});
+  }
+  streams_.set_bodies(bodies_);
+}
+
 void FramePublisher::send_poses(bool quiet) {
-  const int readers = poses_topic_.readers();
-  joined_ |= readers > std::exchange(readers_, readers);
-  outbox_.set_poses_wanted(readers > 0);
-  if (readers == 0) return;
-  for (; outbox_.take(snapshot_); joined_ = false) write_poses();
+  of_poses_.look(poses_topic_.readers());
+  streams_.look();
+  outbox_.set_poses_wanted(of_poses_.readers > 0 || streams_.any());
+  while ((of_poses_.readers > 0 || streams_.any()) && outbox_.take(snapshot_)) {
+    if (of_poses_.readers > 0) write_poses();
+    streams_.send(snapshot_);
+  }
   // Again, if nothing newer comes soon; while frames come, other readers would get one twice.
-  if (quiet && std::exchange(joined_, false) && snapshot_.epoch != 0) write_poses();
+  if (!quiet || snapshot_.epoch == 0) return;
+  if (of_poses_.is_new()) write_poses();
+  streams_.send(snapshot_);
 }
 
 void FramePublisher::send_impacts() {
@@ -88,13 +115,39 @@ void FramePublisher::send_impacts() {
   if (!outbox_.take(impacts_)) return;
   for (ImpactNotice& impact : impacts_) {
     impact.session = session_;
+    impact.sequence = ++impacts_written_;
     write(events_topic_, impact);
   }
 }
 
+void FramePublisher::send_contacts() {
+  of_contacts_.look(contacts_topic_.readers());
+  outbox_.set_contacts_wanted(of_contacts_.readers > 0);
+  const bool is_new = outbox_.take(contacts_);
+  const bool again = of_contacts_.joined && contacts_.epoch != 0;
+  if (of_contacts_.readers == 0 || !(is_new || again)) return;
+  of_contacts_.joined = false;
+  contacts_.session = session_;
+  contacts_.sequence = ++contacts_written_;
+  write(contacts_topic_, contacts_);
+}
+
+void FramePublisher::send_held(bool quiet) {
+  of_held_.look(held_topic_.readers());
+  outbox_.set_held_wanted(of_held_.readers > 0);
+  const bool is_new = outbox_.take(held_);
+  const bool again = (of_held_.joined || (quiet && of_held_.is_new())) && held_.epoch != 0;
+  if (of_held_.readers == 0 || !(is_new || again)) return;
+  of_held_.joined = false;
+  held_.session = session_;
+  held_.sequence = ++held_written_;
+  write(held_topic_, held_);
+}
+
 void FramePublisher::write_poses() {
   snapshot_.session = session_;
-  snapshot_.publish_time_ns = now_utc_ns();
+  snapshot_.sequence = ++poses_;
+  snapshot_.publish_time_ns = utc_ns();
   write(poses_topic_, snapshot_);
 }
 

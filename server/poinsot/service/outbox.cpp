@@ -1,11 +1,13 @@
 #include "poinsot/service/outbox.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace poinsot {
 
-Outbox::Outbox(std::size_t bodies) {
+Outbox::Outbox(std::size_t bodies, std::function<void()> wanted)
+    : bodies_(bodies), on_wanted_(std::move(wanted)) {
   for (PoseSnapshot& snapshot : ring_) snapshot.bodies.reserve(bodies);
   replies_.reserve(kReplies);
   impacts_.reserve(kImpacts);
@@ -62,8 +64,44 @@ void Outbox::push(const RunReport& report) {
   filled_.notify_one();
 }
 
+void Outbox::push(SceneChange change) {
+  if (change.empty()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    if (scene_.empty()) {
+      scene_ = std::move(change);
+    } else {
+      // What came and is gone again before it was sent is not told as new.
+      for (const BodyId id : change.removed)
+        std::erase_if(scene_.added, [id](const BodyInfo& body) { return body.id == id; });
+      scene_.removed.insert(scene_.removed.end(), change.removed.begin(), change.removed.end());
+      std::ranges::move(change.added, std::back_inserter(scene_.added));
+    }
+  }
+  filled_.notify_one();
+}
+
+void Outbox::swap_in(ContactSnapshot& contacts) {
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(contacts_, contacts);
+    contacts_are_new_ = true;
+  }
+  filled_.notify_one();
+}
+
+void Outbox::swap_in(HeldList& held) {
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(held_, held);
+    held_is_new_ = true;
+  }
+  filled_.notify_one();
+}
+
 bool Outbox::anything_to_send() const {
-  return (poses_wanted_ && count_ > 0) || !replies_.empty() || !impacts_.empty() || report_is_new_;
+  return (poses_wanted_ && count_ > 0) || !replies_.empty() || !impacts_.empty() ||
+         report_is_new_ || !scene_.empty() || contacts_are_new_ || held_is_new_;
 }
 
 bool Outbox::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout) {
@@ -98,6 +136,31 @@ bool Outbox::take(std::vector<ImpactNotice>& impacts) {
   const std::lock_guard lock(mutex_);
   std::swap(impacts, impacts_);
   return !impacts.empty();
+}
+
+bool Outbox::take(SceneChange& change) {
+  change = {};
+  const std::lock_guard lock(mutex_);
+  std::swap(change, scene_);
+  return !change.empty();
+}
+
+bool Outbox::take(ContactSnapshot& contacts) {
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(contacts_are_new_, false)) return false;
+  std::swap(contacts, contacts_);
+  return true;
+}
+
+bool Outbox::take(HeldList& held) {
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(held_is_new_, false)) return false;
+  std::swap(held, held_);
+  return true;
+}
+
+void Outbox::set_wanted(std::atomic<bool>& flag, bool wanted) {
+  if (!flag.exchange(wanted) && wanted && on_wanted_) on_wanted_();
 }
 
 void Outbox::set_poses_wanted(bool wanted) {

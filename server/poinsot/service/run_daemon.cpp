@@ -7,6 +7,7 @@
 #include <ostream>
 #include <utility>
 
+#include "poinsot/base/error.h"
 #include "poinsot/protocol/methods_text.h"
 #include "poinsot/service/daemon.h"
 
@@ -23,15 +24,6 @@ double round_to_two_digits(double x) {
   return std::round(x / unit) * unit;
 }
 
-// The options that lead a client to this daemon.
-std::string address(const DaemonOptions& options) {
-  std::string words;
-  if (options.domain != DaemonOptions{}.domain)
-    words += " --domain " + std::to_string(options.domain);
-  if (options.lan) words += " --listen lan";
-  return words;
-}
-
 // A name as one word of a shell's command line.
 std::string shell_word(const std::string& name) {
   const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -43,6 +35,18 @@ std::string shell_word(const std::string& name) {
   return word + "'";
 }
 
+// The options that lead a client to this daemon.
+std::string address(const DaemonOptions& options) {
+  std::string words;
+  if (options.domain != DaemonOptions{}.domain)
+    words += " --domain " + std::to_string(options.domain);
+  if (options.lan) words += " --listen lan";
+  if (!options.partition.empty()) words += " --partition " + shell_word(options.partition);
+  if (!options.discovery_server.empty())
+    words += " --discovery-server " + shell_word(options.discovery_server);
+  return words;
+}
+
 // The first body of one shape: compounds are seldom small. Else the first that moves.
 std::vector<BodyDef>::const_iterator body_to_push(const std::vector<BodyDef>& bodies) {
   const auto moves = [](const BodyDef& body) { return !body.is_static; };
@@ -52,11 +56,28 @@ std::vector<BodyDef>::const_iterator body_to_push(const std::vector<BodyDef>& bo
   return simple != bodies.end() ? simple : std::find_if(bodies.begin(), bodies.end(), moves);
 }
 
+std::string short_number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", x);
+  return text;
+}
+
 void route_to(const Logger& logger) {
   route_bus_log([logger](BusLogLevel level, const std::string& message) {
     logger->log(level == BusLogLevel::error ? spdlog::level::err : spdlog::level::debug,
                 "bus message={}", poinsot::quoted(message));
   });
+}
+
+// The world's first daemon stays: this one has just come.
+void refuse_taken_world(const Daemon& daemon, const DaemonOptions& options, StopSignals& signals) {
+  constexpr auto kLook = 50ms;
+  for (auto waited = 0ms; waited < Daemon::kDiscovery; waited += kLook) {
+    if (daemon.is_taken())
+      throw Error("--world: another daemon serves '" + daemon.world() + "' on domain " +
+                  std::to_string(options.domain) + ": choose another name, or --take-over");
+    if (signals.wait_for(kLook)) return;
+  }
 }
 
 }  // namespace
@@ -66,9 +87,8 @@ std::string invitation(const Scene& scene, const DaemonOptions& options) {
   const std::string client = "  " + shell_word(options.client);
   std::string text = "In another terminal:\n" + client + " watch" + address(options) + "\n";
   if (body == scene.bodies.end()) return text;
-  char force[32];
-  std::snprintf(force, sizeof force, "%g",
-                round_to_two_digits(1.5 * kWeight * body->mass_properties.mass));
+  const std::string force =
+      short_number(round_to_two_digits(1.5 * kWeight * body->mass_properties.mass));
   return text + client + " push " + shell_word(body->name) + " --force 0,0," + force +
          " --for 0.5s" + address(options) + "\n";
 }
@@ -85,6 +105,12 @@ std::string status_line(const RunReport& r) {
   if (const std::string methods = methods_text(r.frame); !methods.empty()) text += "  " + methods;
   if (r.state == RunState::paused) text += "  paused";
   if (r.epoch > 1) text += "  epoch " + std::to_string(r.epoch);
+  if (r.time_scale == 0)
+    text += "  as fast as it can";
+  else if (r.time_scale != 1)
+    text += "  time scale " + short_number(r.time_scale);
+  if (!r.recording.empty()) text += "  recording " + r.recording;
+  if (r.late_inputs > 0) text += "  late inputs " + std::to_string(r.late_inputs);
   if (r.overruns > 0) text += "  late frames " + std::to_string(r.overruns);
   if (r.frame.quarantined > 0) text += "  frozen bodies " + std::to_string(r.frame.quarantined);
   return text;
@@ -96,6 +122,7 @@ void run_daemon(Scene scene, const DaemonOptions& options, bool json, StopSignal
   const std::string welcome = invitation(scene, options);
   Daemon daemon(std::move(scene), options, logger, [&signals] { signals.request_stop(); });
   if (!json) out << welcome << std::flush;
+  if (!options.take_over) refuse_taken_world(daemon, options, signals);
   while (!signals.wait_for(1s))
     if (!json) out << status_line(daemon.report()) << std::endl;
   const RunSummary summary = daemon.stop();

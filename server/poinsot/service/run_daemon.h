@@ -15,8 +15,8 @@
 namespace poinsot {
 
 // Runs until the last frame or until `signals` ask for the end. With `json` nothing is written to
-// `out` but the summary, as one line. Throws Error as Daemon does, std::runtime_error if the
-// trajectory could not be written.
+// `out` but the summary, as one line. Throws Error as Daemon does, and if another daemon serves the
+// world already; std::runtime_error if the trajectory could not be written.
 void run_daemon(Scene scene, const DaemonOptions& options, bool json, StopSignals& signals,
                 const Logger& logger, std::ostream& out);
 

@@ -24,36 +24,67 @@ TEST(CommandInbox, HandsOverEverythingOnce) {
   EXPECT_TRUE(inbox.push(wrench(1, 1)));
   EXPECT_TRUE(inbox.push(wrench(1, 2)));
   EXPECT_TRUE(inbox.push(RunControl{.client = 1, .seq = 3}));
+  inbox.push_own(Order{.control = {.client = 1, .seq = kOwnSeq}});
+  inbox.push_result(Reply{.client = 1, .seq = 4});
   inbox.take(batch);
   ASSERT_EQ(batch.wrenches.size(), 2u);
-  ASSERT_EQ(batch.controls.size(), 1u);
+  EXPECT_EQ(batch.orders.size(), 1u);
+  EXPECT_EQ(batch.own.size(), 1u);
+  EXPECT_EQ(batch.results.size(), 1u);
   EXPECT_EQ(batch.wrenches[1].seq, 2u);
   inbox.take(batch);
   EXPECT_TRUE(batch.empty());
 }
 
+constexpr std::size_t kOneClient = CommandInbox::kWrenches / CommandInbox::kShare;
+
 TEST(CommandInbox, RefusesAndCountsWhenFull) {
   CommandInbox inbox;
-  for (std::uint64_t n = 1; n <= CommandInbox::kCapacity; ++n)
-    ASSERT_TRUE(inbox.push(wrench(1, n)));
+  for (std::uint64_t n = 1; n <= CommandInbox::kWrenches; ++n)
+    ASSERT_TRUE(inbox.push(wrench(n % 4, n)));
   EXPECT_FALSE(inbox.push(wrench(1, 5000)));
-  EXPECT_FALSE(inbox.push(wrench(1, 5001)));
+  EXPECT_FALSE(inbox.push(wrench(9, 5001)));
+  EXPECT_TRUE(inbox.push(wrench(1, 5)));  // sent again: it waits
   EXPECT_EQ(inbox.full(), 2u);
-  inbox.count_malformed();
+  inbox.count_refused();
   EXPECT_EQ(inbox.full(), 2u);
   EXPECT_EQ(inbox.refused(), 3u);
   CommandInbox::Batch batch;
   inbox.take(batch);
-  EXPECT_EQ(batch.wrenches.size(), CommandInbox::kCapacity);
+  EXPECT_EQ(batch.wrenches.size(), CommandInbox::kWrenches);
   EXPECT_TRUE(inbox.push(wrench(1, 5002)));
 }
 
-TEST(CommandInbox, AFloodOfPushesLeavesRoomForAPause) {
+TEST(CommandInbox, OneClientLeavesRoomForOthers) {
   CommandInbox inbox;
   std::uint64_t seq = 1;
   while (inbox.push(wrench(1, seq))) ++seq;  // each a new one: the same would be taken again
-  EXPECT_EQ(seq, CommandInbox::kCapacity + 1);
-  EXPECT_TRUE(inbox.push(RunControl{}));
+  EXPECT_EQ(seq, kOneClient + 1);
+  for (seq = 1; seq <= kOneClient; ++seq) ASSERT_TRUE(inbox.push(wrench(2, seq)));
+  EXPECT_FALSE(inbox.push(wrench(3, 1)));
+  EXPECT_TRUE(inbox.push(RunControl{.client = 1}));  // pushes do not shut out a pause
+  CommandInbox::Batch batch;
+  inbox.take(batch);
+  EXPECT_TRUE(inbox.push(wrench(1, 9999)));
+}
+
+TEST(CommandInbox, TheDaemonsOwnOrdersAlwaysFindRoom) {
+  CommandInbox inbox;
+  for (std::uint64_t n = 1; n <= CommandInbox::kOrders; ++n)
+    ASSERT_TRUE(inbox.push(RunControl{.client = n, .seq = n}));
+  EXPECT_FALSE(inbox.push(RunControl{.client = 0, .seq = 1}));
+  inbox.push_own(Order{});
+  CommandInbox::Batch batch;
+  inbox.take(batch);
+  EXPECT_EQ(batch.own.size(), 1u);
+}
+
+TEST(CommandInbox, WaitEndsWithTheTime) {
+  CommandInbox inbox;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto until = begin + 20ms;
+  EXPECT_FALSE(inbox.wait({}, std::chrono::nanoseconds(until.time_since_epoch()).count()));
+  EXPECT_GE(std::chrono::steady_clock::now(), until);
 }
 
 TEST(CommandInbox, WaitEndsWithACommand) {

@@ -1,104 +1,23 @@
 #include "poinsot/service/frame_loop.h"
 
-#include <chrono>
 #include <ctime>
-#include <map>
-#include <memory>
-#include <thread>
 
-#include <gtest/gtest.h>
-
-#include "support/scene_builder.h"
+#include "unit/service/loop_fixture.h"
 
 namespace poinsot {
 namespace {
 
 using namespace std::chrono_literals;
 
-Scene falling_box() {
-  Scene scene = test::empty_scene();
-  scene.simulation.gravity = Vec3(0, 0, -9.81);
-  scene.presentation.frame_rate = 100;
-  scene.bodies = {test::floor(), test::box("box", Vec3(0, 0, 2))};
-  return scene;
-}
-
-WrenchCommand push(std::uint64_t client, std::uint64_t seq, const Vec3& force = Vec3(1, 0, 0)) {
-  WrenchCommand command;
-  command.client = client;
-  command.seq = seq;
-  command.body_name = "box";
-  command.force = force;
-  command.hold = Hold::until_cleared;
-  return command;
-}
-
-RunControl control(std::uint64_t client, std::uint64_t seq, ControlAction action,
-                   std::uint64_t frames = 1) {
-  return {.client = client, .seq = seq, .epoch = 0, .action = action, .frames = frames};
-}
-
-// A loop on its own thread, without a bus: the test stands at both ends.
-class FrameLoopTest : public testing::Test {
- protected:
-  void start(FrameLoopOptions options) {
-    loop_ = std::make_unique<FrameLoop>(layer_, inbox_, outbox_, std::move(options));
-    thread_ = std::jthread([this](const std::stop_token& stop) { loop_->run(stop); });
-  }
-  void TearDown() override { end(); }
-  void end() {
-    thread_.request_stop();
-    if (thread_.joinable()) thread_.join();
-  }
-
-  // Waits for the reply to (client, seq); fails the test when none comes.
-  Reply reply_to(std::uint64_t client, std::uint64_t seq) {
-    const auto deadline = std::chrono::steady_clock::now() + 20s;
-    std::vector<Reply> batch;
-    do {
-      outbox_.wait({}, 5ms);
-      if (outbox_.take(batch))
-        for (Reply& reply : batch) {
-          ++replies_to_[{reply.client, reply.seq}];
-          replies_[{reply.client, reply.seq}] = reply;
-        }
-      if (const auto found = replies_.extract(std::pair(client, seq))) return found.mapped();
-    } while (std::chrono::steady_clock::now() < deadline);
-    ADD_FAILURE() << "no reply to " << client << "." << seq;
-    return {};
-  }
-
-  Reply ask(const WrenchCommand& command) {
-    EXPECT_TRUE(inbox_.push(command));
-    return reply_to(command.client, command.seq);
-  }
-  Reply ask(const RunControl& command) {
-    EXPECT_TRUE(inbox_.push(command));
-    return reply_to(command.client, command.seq);
-  }
-
-  PresentationLayer layer_{falling_box()};
-  CommandInbox inbox_;
-  Outbox outbox_{1};
-  std::unique_ptr<FrameLoop> loop_;
-  std::jthread thread_;
-  std::map<std::pair<std::uint64_t, std::uint64_t>, Reply> replies_;
-  std::map<std::pair<std::uint64_t, std::uint64_t>, int> replies_to_;
-};
-
-std::vector<std::uint64_t> hashes_without_commands(int frames) {
-  PresentationLayer layer(falling_box());
-  std::vector<std::uint64_t> hashes = {layer.snapshot().state_hash};
-  for (int n = 0; n < frames; ++n) {
-    layer.advance_frame();
-    hashes.push_back(layer.snapshot().state_hash);
-  }
-  return hashes;
-}
+using test::control;
+using test::falling_box;
+using test::FrameLoopTest;
+using test::hashes_without_commands;
+using test::push;
 
 TEST_F(FrameLoopTest, EndsByItselfAfterItsFrames) {
   std::vector<std::uint64_t> seen;
-  start({.fast = true, .frames = 50, .each_frame = [&](const PresentationLayer& layer) {
+  start({.scale = 0, .frames = 50, .each_frame = [&](const PresentationLayer& layer) {
            seen.push_back(layer.snapshot().state_hash);
          }});
   thread_.join();
@@ -251,7 +170,7 @@ TEST_F(FrameLoopTest, ControlsThatMakeNoSenseAreRefusedWithTheReason) {
     EXPECT_NE(reply.message.find(reason), std::string::npos) << reply.message;
   };
   expect(control(1, 0, ControlAction::pause), ResultCode::invalid_value, "seq is 0");
-  expect(control(1, 1, static_cast<ControlAction>(9)), ResultCode::invalid_value, "action is 9");
+  expect(control(1, 1, static_cast<ControlAction>(99)), ResultCode::invalid_value, "action is 99");
   expect(control(1, 2, ControlAction::step, 0), ResultCode::invalid_value, "frames is 0");
   expect(control(1, 3, ControlAction::step, kMaxStepFrames + 1), ResultCode::invalid_value,
          "1000000001");
@@ -312,7 +231,7 @@ TEST_F(FrameLoopTest, CountsAcceptedAndRefusedCommands) {
   bad.body_name = "bxo";
   EXPECT_EQ(ask(bad).code, ResultCode::not_found);
   ask(bad);  // again: answered, not counted again
-  inbox_.count_malformed();
+  inbox_.count_refused();
   ask(control(1, 3, ControlAction::pause));
   const RunReport report = outbox_.newest_report();
   EXPECT_EQ(report.commands_refused, 2u);

@@ -30,6 +30,17 @@ TEST(ReplyCache, KeepsTheFirstReply) {
   EXPECT_EQ(cache.size(), 1u);
 }
 
+TEST(ReplyCache, KnowsWhatIsUnderWayUntilItsReplyComes) {
+  ReplyCache cache;
+  cache.expect(1, 7);
+  EXPECT_TRUE(cache.is_under_way(1, 7));
+  EXPECT_FALSE(cache.is_under_way(1, 8));
+  EXPECT_EQ(cache.find(1, 7), nullptr);
+  cache.insert(reply(1, 7, 42));
+  EXPECT_FALSE(cache.is_under_way(1, 7));
+  EXPECT_NE(cache.find(1, 7), nullptr);
+}
+
 TEST(ReplyCache, ForgetsTheOldestBeyondItsCapacity) {
   ReplyCache cache;
   for (std::uint64_t n = 1; n <= ReplyCache::kCapacity + 3; ++n) cache.insert(reply(n % 5, n));
