@@ -42,8 +42,6 @@ class PresentationLayer {
   Reply obey(const Order& order);
   // What was last saved by save.
   std::shared_ptr<const Checkpoint> last_saved() const { return ring_.newest(); }
-  // Of this name in memory, or of no name the newest: what restore would go back to.
-  std::shared_ptr<const Checkpoint> saved(std::string_view name) const { return ring_.find(name); }
   // All that a continuation needs, now. Named by frame and epoch.
   std::shared_ptr<const Checkpoint> make_checkpoint(std::string name) const;
   // Goes on from there, in the next epoch. Throws Error if the bytes are damaged; the run is then
