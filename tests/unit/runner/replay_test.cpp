@@ -25,10 +25,8 @@ class RecordedRun {
   PresentationLayer& layer() { return layer_; }
 
   void record(const std::filesystem::path& file) {
-    log_.emplace(LogStart{.file = file,
-                          .world = "arena",
-                          .original = layer_.original_scene(),
-                          .checkpoint = layer_.make_checkpoint("")});
+    log_.emplace(
+        LogStart{.file = file, .world = "arena", .checkpoint = layer_.make_checkpoint("")});
   }
   bool stop_recording() { return log_->close(); }
 
