@@ -1,6 +1,5 @@
 // A run that goes on from a checkpoint is the run that was saved, in every bit.
 
-#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -46,39 +45,36 @@ CollisionLayer layer_of(const CheckpointScene& of, int threads) {
   return CollisionLayer(scene);
 }
 
-// Frames at which states are saved: the first few, and some on the way.
-std::vector<int> saved_frames(const CheckpointScene& of) {
-  return {0, 1, 7, of.last / 4, of.last / 2, of.last / 2 + 1, of.last};
+// Frames at which states are saved, and with how many threads they go on.
+struct SavedFrame {
+  int n, threads;
+};
+std::vector<SavedFrame> saved_frames(const CheckpointScene& of) {
+  return {{0, 1}, {1, 2}, {of.last / 3, 1}, {of.last / 2, 2}, {of.last - 3, 2}, {of.last, 1}};
 }
-constexpr int kOn = 100;  // frames that a run goes on
 
 class Checkpoint : public testing::TestWithParam<CheckpointScene> {};
 
 TEST_P(Checkpoint, ARunGoesOnFromItInEveryBit) {
   const CheckpointScene& of = GetParam();
   CollisionLayer whole = layer_of(of, 1);
-  std::map<int, Bytes> checkpoints;
-  for (const int n : saved_frames(of)) checkpoints[n];
   std::vector<std::uint64_t> hashes;
-  std::map<int, Bytes> later;  // of every tenth frame
-  for (int n = 0; n <= of.last + kOn; ++n) {
+  std::vector<Bytes> states;
+  for (int n = 0; n <= of.last + of.on; ++n) {
     if (n > 0) frame(of, whole, n);
     hashes.push_back(fingerprint(whole));
-    if (checkpoints.contains(n)) checkpoints[n] = saved(whole);
-    if (n % 10 == 0) later[n] = saved(whole);
+    states.push_back(saved(whole));
   }
-  for (const auto& [from, bytes] : checkpoints)
-    for (const int threads : {1, 2}) {
-      SCOPED_TRACE("from frame " + std::to_string(from) + ", threads " + std::to_string(threads));
-      CollisionLayer layer = layer_of(of, threads);
-      restore(layer, bytes);
-      ASSERT_TRUE(saved(layer) == bytes);
-      for (int n = from; n <= from + kOn; ++n) {
-        if (n > from) frame(of, layer, n);
-        ASSERT_EQ(fingerprint(layer), hashes[static_cast<std::size_t>(n)]) << "frame " << n;
-        ASSERT_TRUE(!later.contains(n) || saved(layer) == later[n]) << "frame " << n;
-      }
+  for (const auto& [from, threads] : saved_frames(of)) {
+    SCOPED_TRACE("from frame " + std::to_string(from) + ", threads " + std::to_string(threads));
+    CollisionLayer layer = layer_of(of, threads);
+    restore(layer, states[static_cast<std::size_t>(from)]);
+    for (int n = from; n <= from + of.on; ++n) {
+      if (n > from) frame(of, layer, n);
+      ASSERT_EQ(fingerprint(layer), hashes[static_cast<std::size_t>(n)]) << "frame " << n;
+      ASSERT_TRUE(saved(layer) == states[static_cast<std::size_t>(n)]) << "frame " << n;
     }
+  }
 }
 
 // Back to where it was before, in the layer that went on.
@@ -88,11 +84,11 @@ TEST_P(Checkpoint, ALayerThatWentOnGoesBack) {
   const int from = of.last / 2;
   for (int n = 1; n <= from; ++n) frame(of, layer, n);
   const Bytes before = saved(layer);
-  for (int n = from + 1; n <= from + kOn / 2; ++n) frame(of, layer, n);
+  for (int n = from + 1; n <= from + of.on / 2; ++n) frame(of, layer, n);
   const Bytes after = saved(layer);
   restore(layer, before);
   EXPECT_TRUE(saved(layer) == before);
-  for (int n = from + 1; n <= from + kOn / 2; ++n) frame(of, layer, n);
+  for (int n = from + 1; n <= from + of.on / 2; ++n) frame(of, layer, n);
   EXPECT_TRUE(saved(layer) == after);
 }
 

@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using Duration = std::chrono::nanoseconds;
 
-// How long a stop may have to wait.
+// How often "waiting" may be said, if it is to be said.
 constexpr Duration kSlice = 100ms;
 // Daemons on this host announce themselves within this time.
 constexpr Duration kDiscovery = 1s;
@@ -53,6 +53,8 @@ std::uint64_t tool_identity() {
   return std::max<std::uint64_t>(hash, 1);  // 0 would be none
 }
 
+}  // namespace
+
 void route_log(const Logger& logger) {
   route_bus_log([logger](BusLogLevel level, const std::string& message) {
     const bool error = level == BusLogLevel::error;
@@ -61,11 +63,9 @@ void route_log(const Logger& logger) {
   });
 }
 
-}  // namespace
-
 void add_connection_options(CLI::App& app, ConnectionFlags& flags) {
   app.add_option("--world", flags.world, "world to talk to; may be left out if there is only one")
-      ->type_name("NAME");
+      ->type_name("WORLD");
   add_bus_options(app, flags.bus);
   add_duration_option(app, "--timeout", flags.timeout, "how long to wait for an answer [5s]");
 }
@@ -79,14 +79,24 @@ std::string no_server_text(const ConnectionFlags& flags, std::string_view what) 
       flags.bus.lan ? "the local network" : "this host");
 }
 
-Client connect(const Context& context, StopSignals* stop) {
+ClientOptions client_options(const Context& context) {
   const ConnectionFlags& flags = context.flags;
+  ClientOptions options;
+  options.world = flags.world;
+  options.domain = flags.bus.domain;
+  options.lan = flags.bus.lan;
+  options.client = tool_identity();
+  options.partition = flags.bus.partition;
+  options.discovery_server = flags.bus.discovery_server;
+  options.poses = std::nullopt;
+  options.stop = context.stop;
+  return options;
+}
+
+Client connect(const Context& context, const ClientOptions& options) {
   route_log(context.logger);
-  Client client({.world = flags.world,
-                 .domain = flags.bus.domain,
-                 .lan = flags.bus.lan,
-                 .client = tool_identity()});
-  Patience patience(flags.timeout);
+  Client client(options);
+  Patience patience(context.flags.timeout);
   while (true) {
     try {
       client.wait_for_server(patience.next(kSlice));
@@ -94,10 +104,19 @@ Client connect(const Context& context, StopSignals* stop) {
     } catch (const SeveralWorlds& several) {
       throw NoAnswer(std::string(several.what()) + " (--world NAME)");
     } catch (const NoAnswer& none) {
-      if (patience.is_over()) throw NoAnswer(no_server_text(flags, none.what()));
+      if (patience.is_over()) throw NoAnswer(no_server_text(context.flags, none.what()));
     }
-    if (stop != nullptr && stop->wait_for(0ns)) throw Interrupted();
   }
+}
+
+Client connect(const Context& context) {
+  return connect(context, client_options(context));
+}
+
+Client connect(const Context& context, const PoseFilter& filter) {
+  ClientOptions options = client_options(context);
+  options.poses = filter;
+  return connect(context, options);
 }
 
 std::vector<std::string> wait_for_worlds(const Context& context) {
@@ -106,7 +125,7 @@ std::vector<std::string> wait_for_worlds(const Context& context) {
   Patience patience(flags.timeout);
   do {
     std::vector<std::string> worlds =
-        find_worlds(flags.bus.domain, flags.bus.lan, patience.next(kDiscovery));
+        find_worlds(client_options(context), patience.next(kDiscovery));
     if (!worlds.empty()) return worlds;
   } while (!patience.is_over());
   throw NoAnswer(

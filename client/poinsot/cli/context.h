@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <stop_token>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -24,12 +25,12 @@ struct ConnectionFlags {
 struct Context {
   ConnectionFlags flags;
   Logger logger;
+  // Ctrl-C and the like: what waits on the bus then throws Stopped, which ends the program with
+  // ExitCode::ok, everything put away.
+  std::stop_token stop;
 };
 
-// Does a verb's work, after its options have been read. Throws NoAnswer, Error or Interrupted.
+// Does a verb's work, after its options have been read. Throws NoAnswer, Error or Stopped.
 using Action = std::function<ExitCode(const Context&)>;
-
-// A stop was asked for while there was nothing to lose: the program ends with ExitCode::ok.
-struct Interrupted {};
 
 }  // namespace poinsot

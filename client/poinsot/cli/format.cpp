@@ -3,8 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "poinsot/cli/units.h"
+#include "poinsot/cli/words.h"
 #include "poinsot/program/log.h"
-#include "poinsot/protocol/methods_text.h"
 
 namespace poinsot {
 namespace {
@@ -25,10 +25,6 @@ std::string until(std::uint64_t first, std::uint64_t last, double frame_rate) {
                      end_time(last, frame_rate));
 }
 
-std::string vector_text(const Vec3& v) {
-  return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z());
-}
-
 std::string point_text(const WrenchCommand& command) {
   switch (command.point_frame) {
     case PointFrame::center_of_mass:
@@ -42,12 +38,29 @@ std::string point_text(const WrenchCommand& command) {
 }
 
 std::string wrench_text(const WrenchCommand& command) {
+  if (command.kind == WrenchKind::tether)
+    return fmt::format("tether to {} m, {:g} N/m, {:g} N s/m, {}", vector_text(command.target),
+                       command.stiffness, command.damping, point_text(command));
+  const bool impulse = command.kind == WrenchKind::impulse;
   std::string text;
   if (command.force != Vec3::Zero())
-    text = "force " + vector_text(command.force) + " N " + point_text(command);
+    text = (impulse ? "impulse " : "force ") + vector_text(command.force) +
+           (impulse ? " N s " : " N ") + point_text(command);
   if (command.torque != Vec3::Zero())
-    text += (text.empty() ? "torque " : ", torque ") + vector_text(command.torque) + " N m";
+    text += (text.empty() ? "" : ", ") + std::string(impulse ? "angular impulse " : "torque ") +
+            vector_text(command.torque) + (impulse ? " N m s" : " N m");
   return text + (command.axes == Axes::world ? ", world axes" : ", body axes");
+}
+
+std::string cleared_text(const WrenchCommand& command) {
+  std::string text = command.body_name.empty() ? "all bodies" : command.body_name;
+  if (command.slot != 0) text += fmt::format(", slot {}", command.slot);
+  return text;
+}
+
+// Zero has no sign.
+std::string numbers(const Vec3& v) {
+  return fmt::format(" {:.9g} {:.9g} {:.9g}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
 std::string shape_text(const BodyInfo& body) {
@@ -58,16 +71,6 @@ std::string shape_text(const BodyInfo& body) {
     text += shape_name(part.shape);
   }
   return text;
-}
-
-std::string flags_text(FrameFlag flags) {
-  std::string text;
-  for (const Named<FrameFlag>& row : kFrameFlagNames) {
-    if (!has_flag(flags, row.value)) continue;
-    if (!text.empty()) text += ' ';
-    text += row.name;
-  }
-  return text.empty() ? "none" : text;
 }
 
 }  // namespace
@@ -93,13 +96,29 @@ std::string impact_line(const ImpactNotice& impact, const std::string& a, const 
                                  poinsot::quoted(b));
   for (const Vec3* v : {&impact.point, &impact.normal, &impact.impulse, &impact.a.linear_before,
                         &impact.a.linear_after, &impact.b.linear_before, &impact.b.linear_after})
-    for (const double x : *v) text += fmt::format(" {:.9g}", x);
+    text += numbers(*v);
   return text + '\n';
+}
+
+std::string contact_lines(const ContactSnapshot& contacts, const Roster& roster,
+                          double frame_rate) {
+  std::string text;
+  for (const ContactState& contact : contacts.contacts) {
+    const std::string* const a = roster.name(contact.a);
+    const std::string* const b = roster.name(contact.b);
+    if (a == nullptr || b == nullptr || !(roster.shown(contact.a) || roster.shown(contact.b)))
+      continue;
+    text += fmt::format("{} {:.9g} {} {}", contacts.frame, end_time(contacts.frame, frame_rate),
+                        poinsot::quoted(*a), poinsot::quoted(*b));
+    for (const Vec3* v : {&contact.point, &contact.normal, &contact.force}) text += numbers(*v);
+    text += '\n';
+  }
+  return text;
 }
 
 std::string push_text(const WrenchCommand& command, const Reply& reply, double frame_rate) {
   if (command.hold == Hold::clear)
-    return fmt::format("{}: cleared from frame {} on ({:.3f} s)\n", command.body_name,
+    return fmt::format("{}: cleared from frame {} on ({:.3f} s)\n", cleared_text(command),
                        reply.first_frame, start_time(reply.first_frame, frame_rate));
   return fmt::format("{}: {}: {}\n", command.body_name,
                      until(reply.first_frame, reply.last_frame, frame_rate), wrench_text(command));
@@ -111,47 +130,9 @@ std::string refusal_text(std::string_view what, const Reply& reply) {
 }
 
 std::string control_text(std::string_view done, const Reply& reply, double frame_rate) {
-  return fmt::format("{}: frame {} ({:.3f} s), epoch {}, state hash {}\n", done, reply.last_frame,
+  return fmt::format("{}: {}frame {} ({:.3f} s), epoch {}, state hash {}\n", done,
+                     reply.message.empty() ? "" : reply.message + ", ", reply.last_frame,
                      end_time(reply.last_frame, frame_rate), reply.epoch, hex(reply.state_hash));
-}
-
-std::string status_text(const std::string& world, const RunReport& r) {
-  const FrameReport& f = r.frame;
-  const LayerTimes& t = r.times;
-  std::string text;
-  text += fmt::format("world        {}\n", world);
-  text += fmt::format("state        {}\n", state_name(r.state));
-  text += fmt::format("frame        {} ({:.3f} s), epoch {}\n", f.frame, f.sim_time, r.epoch);
-  text += fmt::format("pace         {:g} Hz, {:.3f} of real time, {} overruns\n", r.frame_rate,
-                      r.real_time_factor, r.overruns);
-  text += fmt::format("bodies       {} moving, {} asleep, {} quarantined\n", f.bodies, f.asleep,
-                      f.quarantined);
-  text += fmt::format("contacts     {}, deepest {:.3g} m\n", f.contacts, f.max_penetration);
-  text += fmt::format("islands      {}, {} restarts, {} impact searches\n", f.islands, f.restarts,
-                      f.impact_searches);
-  text += fmt::format(
-      "solvers      {} bodies soft_step, {} convex_newton in {} iterations, {} unconverged, "
-      "residual {:.3g} m/s\n",
-      f.soft_bodies, f.direct_bodies, f.solver_iterations, f.unconverged, f.contact_residual);
-  text += fmt::format("impacts      {}, {} in all\n", f.impacts, f.impacts_so_far);
-  text += fmt::format("energy       {:.6g} J, error {:.3g}, push-out {:.3g} J\n", f.energy,
-                      f.energy_error, f.push_out_energy);
-  text += fmt::format("local error  {:.3g} m, {:.3g} rad\n", f.position_error, f.orientation_error);
-  text += fmt::format("momentum     error {:.3g}\n", f.momentum_error);
-  const std::string methods = methods_text(f);
-  text += fmt::format("methods      {}\n", methods.empty() ? "none yet" : methods);
-  text += fmt::format("commands     {} accepted, {} refused\n", r.commands_accepted,
-                      r.commands_refused);
-  text +=
-      fmt::format("dropped      {} snapshots, {} events\n", r.snapshots_dropped, r.events_dropped);
-  text += fmt::format(
-      "cpu [s]      presentation {:.3f}, collision {:.3f}, contact {:.3f}, simulation {:.3f}, "
-      "publishing {:.3f}\n",
-      t.presentation.cpu_s, t.collision.cpu_s, t.contact.cpu_s, t.simulation.cpu_s,
-      t.publishing.cpu_s);
-  text += fmt::format("flags        {}\n", flags_text(f.flags));
-  text += fmt::format("state hash   {}\n", hex(r.state_hash));
-  return text;
 }
 
 std::string list_text(const std::string& world, const RunReport& report,

@@ -9,6 +9,7 @@
 
 #include "poinsot/cli/roster.h"
 #include "poinsot/protocol/body_info.h"
+#include "poinsot/protocol/contact_snapshot.h"
 #include "poinsot/protocol/frame_report.h"
 #include "poinsot/protocol/impact_notice.h"
 #include "poinsot/protocol/pose_snapshot.h"
@@ -45,13 +46,19 @@ inline constexpr std::string_view kImpactLinesTitle =
     "# frame time a b px py pz nx ny nz jx jy jz "
     "va_x va_y va_z va'_x va'_y va'_z vb_x vb_y vb_z vb'_x vb'_y vb'_z\n";
 
+// One line per contact of the frame of which a body is shown, and the comment that names the
+// columns.
+std::string contact_lines(const ContactSnapshot& contacts, const Roster& roster, double frame_rate);
+inline constexpr std::string_view kContactLinesTitle =
+    "# frame time a b px py pz nx ny nz fx fy fz\n";
+
 // The answer to a wrench that was accepted; `frame_rate` [Hz] turns frames into times.
 std::string push_text(const WrenchCommand& command, const Reply& reply, double frame_rate);
 
 // Why a command or control was refused.
 std::string refusal_text(std::string_view what, const Reply& reply);
 
-// "step: frame 12 (0.200 s), epoch 1, state hash 0123456789abcdef".
+// "step: frame 12 (0.200 s), epoch 1, state hash 0123456789abcdef", with what else the daemon says.
 std::string control_text(std::string_view done, const Reply& reply, double frame_rate);
 
 std::string status_text(const std::string& world, const RunReport& report);

@@ -1,12 +1,10 @@
 #include "poinsot/cli/push.h"
 
 #include <array>
-#include <cstdio>
 
 #include "poinsot/base/error.h"
-#include "poinsot/cli/connect.h"
-#include "poinsot/cli/format.h"
-#include "poinsot/cli/json.h"
+#include "poinsot/cli/send.h"
+#include "poinsot/cli/slots.h"
 
 namespace poinsot {
 namespace {
@@ -16,36 +14,31 @@ constexpr std::array<Named<PointFrame>, 2> kAtFrameNames = {
     {{"world", PointFrame::world}, {"body", PointFrame::body}}};
 
 ExitCode push(const Context& context, const PushOptions& options) {
-  const WrenchCommand command = to_command(options);
-  Client client = connect(context);
-  const RunReport report = client.report(context.flags.timeout);
-  const Reply reply = client.apply(command, context.flags.timeout);
-  if (options.json) std::fputs(push_json(command, reply, report.frame_rate).c_str(), stdout);
-  if (reply.code != ResultCode::ok) {
-    std::fputs(refusal_text("push", reply).c_str(), stderr);
-    return ExitCode::failure;
-  }
-  if (!options.json) std::fputs(push_text(command, reply, report.frame_rate).c_str(), stdout);
-  if (report.state == RunState::paused)
-    std::fputs("the run is paused: the push acts when it goes on (poinsot resume, poinsot step)\n",
-               stderr);
-  return ExitCode::ok;
+  return send(context, to_command(options), "push", options.json);
+}
+
+// An option whose use is remembered.
+CLI::Option* add_vector(CLI::App& app, const std::string& name, Eigen::Vector3d& value, bool& used,
+                        const std::string& description) {
+  return add_vector_option(app, name, value, description)->each([&used](const std::string&) {
+    used = true;
+  });
 }
 
 }  // namespace
 
 void add_push_options(CLI::App& app, PushOptions& options) {
   app.add_option("body", options.body, "name of the body")->required()->type_name("BODY");
-  add_vector_option(app, "--force", options.force, "[N]")->each([&options](const std::string&) {
-    options.has_wrench = true;
-  });
-  add_vector_option(app, "--torque", options.torque, "[N m] a free couple")
-      ->each([&options](const std::string&) { options.has_wrench = true; });
+  add_vector(app, "--force", options.force, options.has_wrench, "[N]");
+  add_vector(app, "--torque", options.torque, options.has_wrench, "[N m] a free couple");
+  add_vector(app, "--impulse", options.impulse, options.has_impulse,
+             "[N s] at once, instead of a force");
+  add_vector(app, "--angular-impulse", options.angular_impulse, options.has_impulse,
+             "[N m s] at once, instead of a torque");
   add_choice_option<Axes>(app, "--frame", options.axes, kAxesNames,
                           "axes of force and torque [world]");
-  CLI::Option* const at =
-      add_vector_option(app, "--at", options.at, "[m] where the force acts [the centre of mass]")
-          ->each([&options](const std::string&) { options.has_point = true; });
+  CLI::Option* const at = add_vector(app, "--at", options.at, options.has_point,
+                                     "[m] where the force acts [the centre of mass]");
   add_choice_option<PointFrame>(app, "--at-frame", options.at_frame, kAtFrameNames,
                                 "frame of that point; body: from its origin [body]")
       ->needs(at);
@@ -55,7 +48,11 @@ void add_push_options(CLI::App& app, PushOptions& options) {
   duration->each([&options](const std::string&) { options.has_duration = true; });
   app.add_option("--from-frame", options.from_frame, "first frame of effect [the next]")
       ->type_name("N");
-  CLI::Option* const hold = app.add_flag("--hold", options.hold, "until it is cleared");
+  CLI::Option* const hold = app.add_flag("--hold", options.hold,
+                                         "until it is cleared: it stays when this tool has ended");
+  app.add_option("--slot", options.slot, "replaces what you hold in this slot, on whatever body")
+      ->check(CLI::Range(1u, kMaxUserSlot))
+      ->type_name("N");
   CLI::Option* const clear =
       app.add_flag("--clear", options.clear, "end all that you push the body with");
   hold->excludes(duration);
@@ -64,19 +61,27 @@ void add_push_options(CLI::App& app, PushOptions& options) {
 }
 
 WrenchCommand to_command(const PushOptions& options) {
-  if (!options.clear && !options.has_wrench)
-    throw Error("nothing to push with: give --force x,y,z or --torque x,y,z");
-  if (options.clear && options.has_wrench)
-    throw Error("--clear ends pushes: it takes neither --force nor --torque");
+  const bool pushes = options.has_wrench || options.has_impulse;
+  if (!options.clear && !pushes)
+    throw Error(
+        "nothing to push with: give --force x,y,z or --torque x,y,z, or --impulse x,y,z or "
+        "--angular-impulse x,y,z");
+  if (options.clear && pushes) throw Error("--clear ends pushes: it takes no force");
+  if (options.has_wrench && options.has_impulse)
+    throw Error("a push is either a force with a torque or an impulse: send two");
+  if (options.has_impulse && (options.hold || options.has_duration))
+    throw Error("an impulse acts at once: it takes neither --for nor --hold");
   WrenchCommand command;
   command.body_name = options.body;
-  command.force = options.force;
-  command.torque = options.torque;
+  command.kind = options.has_impulse ? WrenchKind::impulse : WrenchKind::force;
+  command.force = options.has_impulse ? options.impulse : options.force;
+  command.torque = options.has_impulse ? options.angular_impulse : options.torque;
   command.axes = options.axes;
   command.point = options.at;
   if (options.has_point) command.point_frame = options.at_frame;
   command.duration_ns = options.duration.count();
   command.start_frame = options.from_frame;
+  command.slot = options.slot;
   if (options.clear) command.hold = Hold::clear;
   if (options.hold) command.hold = Hold::until_cleared;
   if (options.has_duration) command.hold = Hold::duration;

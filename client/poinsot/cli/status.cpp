@@ -1,10 +1,9 @@
 #include "poinsot/cli/status.h"
 
-#include <cstdio>
-
 #include "poinsot/cli/connect.h"
 #include "poinsot/cli/format.h"
 #include "poinsot/cli/json.h"
+#include "poinsot/cli/output.h"
 
 namespace poinsot {
 namespace {
@@ -29,7 +28,7 @@ Action declare_status(CLI::App& app) {
     const std::string text =
         *json ? status_json(client.world(), report, bodies(client, context.flags.timeout))
               : status_text(client.world(), report);
-    std::fputs(text.c_str(), stdout);
+    put(text);
     return ExitCode::ok;
   };
 }

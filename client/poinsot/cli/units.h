@@ -30,12 +30,15 @@ inline std::string hex(std::uint64_t value) {
   return text.data();
 }
 
-inline constexpr std::array<Named<FrameFlag>, 5> kFrameFlagNames = {{
+inline constexpr std::array<Named<FrameFlag>, 8> kFrameFlagNames = {{
     {"body_quarantined", FrameFlag::body_quarantined},
     {"inbox_full", FrameFlag::inbox_full},
     {"overrun", FrameFlag::overrun},
     {"stiff", FrameFlag::stiff},
     {"crowded", FrameFlag::crowded},
+    {"input_late", FrameFlag::input_late},
+    {"record_failed", FrameFlag::record_failed},
+    {"rate_limited", FrameFlag::rate_limited},
 }};
 
 }  // namespace poinsot

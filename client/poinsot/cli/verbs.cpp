@@ -1,11 +1,14 @@
 #include "poinsot/cli/verbs.h"
 
 #include <iostream>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "poinsot/base/error.h"
 #include "poinsot/cli/connect.h"
+#include "poinsot/program/signals.h"
 
 namespace poinsot {
 namespace {
@@ -26,7 +29,7 @@ struct CommandLine {
     sub->group("Verbs");
     const Action action = verb.declare(*sub);
     sub->callback([this, action] { chosen = action; });
-    add_connection_options(*sub, flags);
+    if (verb.on_bus) add_connection_options(*sub, flags);
     add_verbose_option(*sub, verbosity);
     sub->footer("Example:\n  " + std::string(verb.example));
   }
@@ -35,6 +38,26 @@ struct CommandLine {
   ConnectionFlags flags;
   int verbosity = 0;
   Action chosen;
+};
+
+// Turns a signal that asks for the end into a token, in a thread of its own.
+class StopListener {
+ public:
+  StopListener()
+      : thread_([this] {
+          signals_.wait();
+          source_.request_stop();
+        }) {}
+  ~StopListener() { signals_.request_stop(); }
+  StopListener(const StopListener&) = delete;
+  StopListener& operator=(const StopListener&) = delete;
+
+  std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  StopSignals signals_;
+  std::stop_source source_;
+  std::jthread thread_;
 };
 
 int fail(ExitCode code, const char* what) {
@@ -48,10 +71,12 @@ int run_client(int argc, const char* const* argv) {
   CommandLine line;
   if (const auto code = parse_command_line(line.app, argc, argv, std::cout, std::cerr))
     return *code;
+  StopListener listener;  // before any other thread
   try {
-    const Context context{line.flags, make_logger("poinsot", spdlog::level::warn, line.verbosity)};
+    const Context context{line.flags, make_logger("poinsot", spdlog::level::warn, line.verbosity),
+                          listener.token()};
     return to_int(line.chosen(context));
-  } catch (const Interrupted&) {
+  } catch (const Stopped&) {
     return to_int(ExitCode::ok);
   } catch (const Error& error) {
     return fail(ExitCode::usage, error.what());

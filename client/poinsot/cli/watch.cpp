@@ -1,11 +1,12 @@
 #include "poinsot/cli/watch.h"
 
-#include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "poinsot/cli/connect.h"
 #include "poinsot/cli/format.h"
 #include "poinsot/cli/json.h"
+#include "poinsot/cli/output.h"
 #include "poinsot/cli/pace.h"
 #include "poinsot/cli/terminal.h"
 
@@ -16,33 +17,33 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kTableRate = 10;  // [Hz] what an eye can follow
-constexpr auto kSlice = 100ms;     // longest wait before a stop or a resized window is noticed
+constexpr auto kSlice = 100ms;     // longest wait before a resized window is noticed
 
 class Watch {
  public:
   Watch(const Context& context, const WatchOptions& options)
       : context_(context),
         options_(options),
-        client_(connect(context, &stop_)),
-        roster_(client_.scene(context.flags.timeout), options.bodies),
-        pace_(options.rate) {
+        client_(connect(context, to_filter(options))),
+        roster_(client_.scene(context.flags.timeout), options.bodies) {
     take(client_.report(context.flags.timeout));
     if (!options.json && stdout_is_terminal()) {
       screen_.emplace();
       if (options.rate == 0) pace_ = Pace(kTableRate);
     } else if (!options.json) {
-      put(kPoseLinesTitle);
+      open_ = put(kPoseLinesTitle);
     }
   }
 
   ExitCode run() {
-    while (!stop_.wait_for(0ns) && !is_done()) {
+    while (!is_done()) {
       const bool came = client_.next_poses(poses_, kSlice);
       const auto now = Clock::now();
       if (came) {
         silent_since_ = now;
         meter_.add(now);
         if (!roster_.describes(poses_)) renew_roster();
+        if (screen_) last_.complete(poses_);
         if (pace_.is_due(now)) show();
       } else {
         if (screen_) draw();
@@ -53,9 +54,7 @@ class Watch {
   }
 
  private:
-  bool is_done() const {
-    return output_closed_ || (options_.count > 0 && shown_ >= options_.count);
-  }
+  bool is_done() const { return !open_ || (options_.count > 0 && shown_ >= options_.count); }
 
   void take(const RunReport& report) {
     frame_rate_ = report.frame_rate;
@@ -66,8 +65,8 @@ class Watch {
     if (screen_) {
       draw();
     } else {
-      put(options_.json ? pose_json(poses_, roster_, frame_rate_)
-                        : pose_lines(poses_, roster_, frame_rate_));
+      open_ = put(options_.json ? pose_json(poses_, roster_, frame_rate_)
+                                : pose_lines(poses_, roster_, frame_rate_));
     }
     ++shown_;
   }
@@ -85,16 +84,18 @@ class Watch {
 
   bool is_silent() const { return Clock::now() - silent_since_ > 1s; }
 
-  // A daemon that restarted with another scene. Throws Error if a wanted body is gone.
+  // Spawned bodies, or a daemon that restarted with another scene. Throws Error if a wanted body is
+  // gone.
   void renew_roster() {
     roster_ = Roster(client_.scene(context_.flags.timeout), options_.bodies);
     take(client_.report(context_.flags.timeout));
     context_.logger->info("scene_changed world={}", poinsot::quoted(client_.world()));
   }
 
-  // A watch without end waits for the frames to come back; a counted one does not.
+  // A watch without end waits for the frames to come back; a counted one does not. Where only what
+  // moves is sent, silence is as good as any frame.
   void check_silence(std::chrono::nanoseconds silence) {
-    if (silence < context_.flags.timeout) return;
+    if (silence < context_.flags.timeout || options_.has_deadband) return;
     const std::string text = "no frame of world '" + client_.world() +
                              "' came: is it paused, or gone? See 'poinsot status'";
     if (options_.count > 0) throw NoAnswer(text);
@@ -102,37 +103,56 @@ class Watch {
     silent_since_ = Clock::now();
   }
 
-  void put(std::string_view text) {
-    const bool written =
-        std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-    output_closed_ = !written;  // as by `| head`: nobody reads any more
-  }
-
-  StopSignals stop_;  // before the client, whose threads must not take the signals
   const Context& context_;
   const WatchOptions& options_;
   Client client_;
   Roster roster_;
-  Pace pace_;
+  Pace pace_{0};
   FrameMeter meter_;
   std::optional<LiveScreen> screen_;
   PoseSnapshot poses_;
+  LastPoses last_;
   double frame_rate_ = 0;  // [Hz]
   std::string state_;      // of the run
   Clock::time_point silent_since_ = Clock::now();
   std::uint64_t shown_ = 0;
-  bool output_closed_ = false;
+  bool open_ = true;  // somebody reads
 };
 
 }  // namespace
 
+PoseFilter to_filter(const WatchOptions& options) {
+  PoseFilter filter;
+  filter.match = options.match;
+  filter.rate = options.rate;
+  if (options.has_deadband) filter.change = options.deadband;
+  return filter;
+}
+
+void LastPoses::complete(PoseSnapshot& poses) {
+  const bool is_another_run =
+      std::exchange(session_, poses.session) != poses.session || poses.epoch != epoch_;
+  if (std::exchange(epoch_, poses.epoch), is_another_run || poses.complete) bodies_.clear();
+  for (const BodyState& body : poses.bodies) bodies_[body.id] = body;
+  poses.bodies.clear();
+  for (const auto& [id, body] : bodies_) poses.bodies.push_back(body);
+}
+
 void add_watch_options(CLI::App& app, WatchOptions& options) {
   app.add_option("--body", options.bodies, "only this body; may be given several times")
       ->allow_extra_args(false)
-      ->type_name("NAME");
+      ->type_name("BODY");
+  app.add_option("--match", options.match,
+                 "only bodies whose names match, with * and ?; several with commas between")
+      ->type_name("PATTERN");
   app.add_option("--rate", options.rate, "at most so many frames a second [all; the table: 10]")
       ->check(CLI::PositiveNumber)
       ->type_name("HZ");
+  app.add_option("--deadband", options.deadband,
+                 "[m, rad] only bodies that moved or turned by more since they were last sent")
+      ->check(CLI::NonNegativeNumber)
+      ->each([&options](const std::string&) { options.has_deadband = true; })
+      ->type_name("X");
   app.add_option("-n,--count", options.count, "end after so many frames")
       ->check(CLI::PositiveNumber)
       ->type_name("N");

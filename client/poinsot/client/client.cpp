@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <random>
 #include <thread>
 #include <utility>
 
 #include "poinsot/base/error.h"
+#include "poinsot/client/link.h"
+#include "poinsot/client/loss_counter.h"
+#include "poinsot/client/scene_book.h"
 #include "poinsot/wire/participant.h"
-#include "poinsot/wire/publisher.h"
-#include "poinsot/wire/subscriber.h"
 
 namespace poinsot {
 namespace {
@@ -25,6 +25,20 @@ constexpr auto kPoll = 2ms;
 constexpr auto kDiscovery = 400ms;
 // On a busy machine it takes longer: all that are there have been met when none came for so long.
 constexpr auto kNoneCame = 300ms;
+// Longest wait before a requested stop is noticed.
+constexpr auto kStopSlice = 100ms;
+// A run that is slow by its time scale may be silent for so many frames [-], but no longer [s].
+constexpr double kSilentFrames = 3;
+constexpr double kLongestSilence = 3600;
+
+BusOptions bus_options(const ClientOptions& options) {
+  BusOptions bus;
+  bus.domain = options.domain;
+  bus.lan = options.lan;
+  bus.partition = options.partition;
+  bus.discovery_server = options.discovery_server;
+  return bus;
+}
 
 std::uint64_t random_id() {
   std::random_device random;
@@ -55,49 +69,13 @@ Clock::time_point deadline(Client::Duration timeout) {
   return Clock::now() + std::clamp<Client::Duration>(timeout, 0ns, std::chrono::hours(24 * 365));
 }
 
-// The endpoints of one world.
-struct Link {
-  Link(Participant& participant, const std::string& world)
-      : poses(participant, world),
-        scene(participant, world),
-        report(participant, world),
-        reply(participant, world),
-        wrench(participant, world),
-        control(participant, world) {
-    poses_wait.attach(poses);
-    scene_wait.attach(scene);
-    report_wait.attach(report);
-    reply_wait.attach(reply);
-  }
+bool is_long(const WrenchCommand&) {
+  return false;
+}
 
-  bool is_matched() const {
-    return poses.writers() > 0 && scene.writers() > 0 && report.writers() > 0 &&
-           reply.writers() > 0 && wrench.readers() > 0 && control.readers() > 0;
-  }
-
-  Subscriber<PoseSnapshot> poses;
-  Subscriber<BodyInfo> scene;
-  Subscriber<RunReport> report;
-  Subscriber<Reply> reply;
-  Publisher<WrenchCommand> wrench;
-  Publisher<RunControl> control;
-  Waiter poses_wait, scene_wait, report_wait, reply_wait;
-};
-
-// Apart from the others: a daemon writes impacts only for those who ask.
-struct EventsLink {
-  EventsLink(Participant& participant, const std::string& world) : events(participant, world) {
-    wait.attach(events);
-  }
-
-  Subscriber<ImpactNotice> events;
-  Waiter wait;
-};
-
-using Bodies = std::map<std::uint32_t, BodyInfo>;  // by place in the scene file
-
-bool is_complete(const Bodies& bodies, std::uint32_t count) {
-  return !bodies.empty() && bodies.size() == count;
+bool is_long(const RunControl& control) {
+  return control.action == ControlAction::step || control.action == ControlAction::run_until ||
+         (control.action == ControlAction::save && control.on_disk);
 }
 
 }  // namespace
@@ -105,14 +83,14 @@ bool is_complete(const Bodies& bodies, std::uint32_t count) {
 struct Client::Impl {
   explicit Impl(const ClientOptions& client_options)
       : options(client_options),
-        participant({.domain = options.domain, .lan = options.lan}),
+        participant(bus_options(options)),
         settled_at(Clock::now() + kDiscovery) {
     if (!options.world.empty()) open(options.world);
   }
 
   void open(const std::string& name) {
     world = name;
-    link = std::make_unique<Link>(participant, world);
+    link = std::make_unique<Link>(participant, world, options.poses);
   }
 
   Link& opened() {
@@ -140,7 +118,7 @@ struct Client::Impl {
         settled_at = std::max(settled_at, Clock::now() + kNoneCame);
       if (!worlds.empty() && Clock::now() >= settled_at) break;
       if (Clock::now() >= until) return;  // the first one met need not be the only one
-      std::this_thread::sleep_for(kPoll);
+      nap();
     }
     if (worlds.size() > 1)
       throw SeveralWorlds("several worlds on domain " + std::to_string(options.domain) +
@@ -148,64 +126,118 @@ struct Client::Impl {
     open(worlds.front());
   }
 
+  void check_stop() const {
+    if (options.stop.stop_requested()) throw Stopped();
+  }
+
+  void nap() const {
+    check_stop();
+    std::this_thread::sleep_for(kPoll);
+  }
+
+  void wait(Waiter& waiter, Duration left) const {
+    check_stop();
+    waiter.wait(options.stop.stop_possible() ? std::min<Duration>(left, kStopSlice) : left);
+  }
+
+  // Waits until `ready()`; false on time-out.
+  template <class Ready>
+  bool wait_until(Waiter& waiter, Clock::time_point until, Ready ready) const {
+    while (!ready()) {
+      const Duration left = until - Clock::now();
+      if (left <= 0ns) return false;
+      wait(waiter, left);
+    }
+    return true;
+  }
+
   // The next sample into `spare`. A frame is written again when somebody joins a paused run: who
   // has it does not get it twice.
   bool take_poses() {
-    while (link->poses.take(spare)) {
-      const PoseKey key{spare.session, spare.epoch, spare.frame};
+    if (!link->poses) return false;
+    while (link->poses->take(spare)) {
+      loss.add(spare.session, spare.sequence);
+      const PoseKey key{spare.session, spare.epoch, spare.frame, spare.state_hash};
       if (std::exchange(last_taken, key) != key) return true;
     }
     return false;
   }
 
-  // The bodies of the daemon that the client looks at: the one whose poses or report it read last,
-  // or else whose scene came last.
-  const Bodies& current_scene() const {
-    const auto looked_at = scenes.find(session != 0 ? session : scene_session);
-    return looked_at == scenes.end() ? no_bodies : looked_at->second;
-  }
-
   void take_scene() {
     BodyInfo body;
-    while (link->scene.take(body)) {
-      if (body.removed) {
-        std::erase_if(scenes[scene_session],
-                      [&](const auto& entry) { return entry.second.id == body.id; });
-        continue;
-      }
-      scene_session = body.session;
-      scenes[body.session][body.index] = std::move(body);
-      // A daemon that is gone is looked at a little longer than it lives; older ones are not.
-      std::erase_if(scenes, [&](const auto& entry) {
-        return entry.first != scene_session && entry.first != session;
-      });
-    }
+    while (link->scene.take(body)) book.add(std::move(body));
   }
 
   void take_reports() {
     while (link->report.take(spare_report)) {
       std::swap(newest_report, spare_report);
+      book.add(newest_report);
       report_is_new = true;
     }
+  }
+
+  std::string incomplete_scene(Duration timeout) const {
+    if (book.size() == 0) return nobody(timeout);
+    std::string text =
+        "the scene of world '" + world + "' is incomplete: " + std::to_string(book.size());
+    if (book.has_report()) text += " of " + std::to_string(book.expected());
+    return text + " bodies within " + seconds(timeout) +
+           (book.has_report() ? "" : ", and no report came");
+  }
+
+  // The time of silence that a run as slow as this one may need.
+  Duration patience(Duration timeout) const {
+    const double frames_per_second = newest_report.frame_rate * newest_report.time_scale;
+    if (!(frames_per_second > 0)) return timeout;
+    const double seconds = std::min(kSilentFrames / frames_per_second, kLongestSilence);
+    return std::max(timeout, Duration(static_cast<std::int64_t>(seconds * 1e9)));
+  }
+
+  // Whether the run has advanced since the last call.
+  bool has_advanced() {
+    take_reports();
+    const std::array<std::uint64_t, 3> now = {newest_report.session, newest_report.epoch,
+                                              newest_report.frame.frame};
+    return std::exchange(progress, now) != now;
   }
 
   template <class Message>
   Reply ask(Publisher<Message>& publisher, Message message, Duration timeout) {
     message.client = id;
     message.seq = ++seq;
-    const Clock::time_point until = deadline(timeout);
+    Clock::time_point until = deadline(timeout);
     Reply reply;
+    const auto answered = [&] {
+      while (link->reply.take(reply))
+        if (reply.client == id && reply.seq == message.seq) return true;
+      return false;
+    };
     while (true) {
       if (!publisher.write(message))
         throw Error("the command does not fit on the bus (body_name: at most 127 bytes of UTF-8)");
       const Clock::time_point resend = std::min(until, Clock::now() + kResendAfter);
-      do {
-        while (link->reply.take(reply))
-          if (reply.client == id && reply.seq == message.seq) return reply;
-        link->reply_wait.wait(resend - Clock::now());
-      } while (Clock::now() < resend);
+      if (wait_until(link->reply_wait, resend, answered)) return reply;
+      if (is_long(message) && has_advanced()) until = deadline(patience(timeout));
       if (Clock::now() >= until) throw NoAnswer(nobody(timeout));
     }
+  }
+
+  template <class Message>
+  Tap<Message>& tap(std::unique_ptr<Tap<Message>>& made) {
+    opened();
+    if (!made) made = std::make_unique<Tap<Message>>(participant, world);
+    return *made;
+  }
+
+  // The next sample of a topic that is read from the first call on.
+  template <class Message>
+  bool next(std::unique_ptr<Tap<Message>>& made, Message& received, Message& out,
+            Duration timeout) {
+    Tap<Message>& source = tap(made);
+    const auto came = [&] { return source.subscriber.take(received); };
+    if (!wait_until(source.wait, deadline(timeout), came)) return false;
+    std::swap(out, received);
+    return true;
   }
 
   ClientOptions options;
@@ -217,22 +249,30 @@ struct Client::Impl {
   std::uint64_t seq = options.client != 0 ? nanoseconds_since_1970() : 0;
   std::string world;
   std::unique_ptr<Link> link;
-  std::unique_ptr<EventsLink> events;
-  ImpactNotice spare_impact;                     // received into
-  using PoseKey = std::array<std::uint64_t, 3>;  // session, epoch, frame
+  std::unique_ptr<Tap<ImpactNotice>> impacts;
+  std::unique_ptr<Tap<ContactSnapshot>> contacts;
+  std::unique_ptr<Tap<HeldList>> held;
+  using PoseKey = std::array<std::uint64_t, 4>;  // session, epoch, frame, hash of the state
   PoseKey last_taken{};
-  PoseSnapshot spare;  // received into, then swapped: a refused sample spoils nothing
+  LossCounter loss;
+  // Received into, then swapped: a refused sample spoils nothing.
+  PoseSnapshot spare;
+  ImpactNotice spare_impact;
+  ContactSnapshot spare_contacts;
+  HeldList newest_held, spare_held;
   RunReport newest_report, spare_report;
-  bool report_is_new = false;              // not returned yet
-  std::uint64_t session = 0;               // of the poses or report read last
-  std::uint64_t scene_session = 0;         // of the body received last
-  std::map<std::uint64_t, Bodies> scenes;  // by session
-  const Bodies no_bodies;
+  bool report_is_new = false;               // not returned yet
+  std::array<std::uint64_t, 3> progress{};  // session, epoch, frame
+  SceneBook book;
 };
 
-std::vector<std::string> find_worlds(int domain, bool lan, std::chrono::nanoseconds wait) {
-  const Participant participant({.domain = domain, .lan = lan});
-  std::this_thread::sleep_for(wait);
+std::vector<std::string> find_worlds(const ClientOptions& bus, std::chrono::nanoseconds wait) {
+  const Participant participant(bus_options(bus));
+  const Clock::time_point until = deadline(wait);
+  while (Clock::now() < until) {
+    if (bus.stop.stop_requested()) throw Stopped();
+    std::this_thread::sleep_for(std::min<Client::Duration>(until - Clock::now(), kStopSlice));
+  }
   return participant.worlds();
 }
 
@@ -246,7 +286,7 @@ void Client::wait_for_server(Duration timeout) {
   if (!impl_->link) impl_->find_the_only_world(until);
   while (!impl_->link || !impl_->link->is_matched()) {
     if (!impl_->link || Clock::now() >= until) throw NoAnswer(impl_->nobody());
-    std::this_thread::sleep_for(kPoll);
+    impl_->nap();
   }
 }
 
@@ -254,16 +294,16 @@ const std::string& Client::world() const {
   return impl_->world;
 }
 
+std::uint64_t Client::id() const {
+  return impl_->id;
+}
+
 bool Client::next_poses(PoseSnapshot& snapshot, Duration timeout) {
   Link& link = impl_->opened();
-  const Clock::time_point until = deadline(timeout);
-  while (!impl_->take_poses()) {
-    const Duration left = until - Clock::now();
-    if (left <= 0ns) return false;
-    link.poses_wait.wait(left);
-  }
+  const auto came = [this] { return impl_->take_poses(); };
+  if (!impl_->wait_until(link.poses_wait, deadline(timeout), came)) return false;
   std::swap(snapshot, impl_->spare);
-  impl_->session = snapshot.session;
+  impl_->book.add(snapshot);
   return true;
 }
 
@@ -271,58 +311,59 @@ bool Client::latest_poses(PoseSnapshot& snapshot) {
   impl_->opened();
   bool any = false;
   for (; impl_->take_poses(); any = true) std::swap(snapshot, impl_->spare);
-  if (any) impl_->session = snapshot.session;
+  if (any) impl_->book.add(snapshot);
   return any;
 }
 
+std::uint64_t Client::lost_poses() const {
+  return impl_->loss.lost();
+}
+
 bool Client::next_impact(ImpactNotice& impact, Duration timeout) {
-  impl_->opened();
-  if (!impl_->events)
-    impl_->events = std::make_unique<EventsLink>(impl_->participant, impl_->world);
-  const Clock::time_point until = deadline(timeout);
-  while (!impl_->events->events.take(impl_->spare_impact)) {
-    const Duration left = until - Clock::now();
-    if (left <= 0ns) return false;
-    impl_->events->wait.wait(left);
-  }
-  impact = impl_->spare_impact;
-  return true;
+  return impl_->next(impl_->impacts, impl_->spare_impact, impact, timeout);
+}
+
+bool Client::next_contacts(ContactSnapshot& contacts, Duration timeout) {
+  return impl_->next(impl_->contacts, impl_->spare_contacts, contacts, timeout);
 }
 
 std::vector<BodyInfo> Client::scene(Duration timeout) {
   Link& link = impl_->opened();
-  const Clock::time_point until = deadline(timeout);
-  std::uint32_t count = 0;
-  while (true) {
+  const auto complete = [this] {
     impl_->take_scene();
     impl_->take_reports();
-    count = impl_->newest_report.scene_bodies;
-    if (is_complete(impl_->current_scene(), count)) break;
-    const Duration left = until - Clock::now();
-    if (left <= 0ns)
-      throw NoAnswer(impl_->current_scene().empty()
-                         ? impl_->nobody(timeout)
-                         : "the scene of world '" + impl_->world + "' is incomplete: " +
-                               std::to_string(impl_->current_scene().size()) + " of " +
-                               std::to_string(count) + " bodies within " + seconds(timeout));
-    link.scene_wait.wait(std::min<Duration>(left, 50ms));  // a report may complete it as well
-  }
-  std::vector<BodyInfo> bodies;
-  for (const auto& [index, body] : impl_->current_scene()) bodies.push_back(body);
-  return bodies;
+    return impl_->book.is_complete();
+  };
+  if (!impl_->wait_until(link.scene_wait, deadline(timeout), complete))
+    throw NoAnswer(impl_->incomplete_scene(timeout));
+  return impl_->book.bodies();
+}
+
+std::uint32_t Client::scene_revision() const {
+  return impl_->book.revision();
 }
 
 RunReport Client::report(Duration timeout) {
   Link& link = impl_->opened();
-  const Clock::time_point until = deadline(timeout);
-  while (impl_->take_reports(), !impl_->report_is_new) {
-    const Duration left = until - Clock::now();
-    if (left <= 0ns) throw NoAnswer(impl_->nobody(timeout));
-    link.report_wait.wait(left);
-  }
-  impl_->report_is_new = false;
-  impl_->session = impl_->newest_report.session;
+  const auto came = [this] {
+    impl_->take_reports();
+    return std::exchange(impl_->report_is_new, false);
+  };
+  if (!impl_->wait_until(link.report_wait, deadline(timeout), came))
+    throw NoAnswer(impl_->nobody(timeout));
   return impl_->newest_report;
+}
+
+HeldList Client::held(Duration timeout) {
+  Tap<HeldList>& tap = impl_->tap(impl_->held);
+  HeldList& newest = impl_->newest_held;
+  const auto known = [&] {
+    while (tap.subscriber.take(impl_->spare_held)) std::swap(newest, impl_->spare_held);
+    return newest.session != 0;
+  };
+  if (!impl_->wait_until(tap.wait, deadline(timeout), known))
+    throw NoAnswer(impl_->nobody(timeout));
+  return newest;
 }
 
 Reply Client::apply(WrenchCommand command, Duration timeout) {
@@ -330,7 +371,17 @@ Reply Client::apply(WrenchCommand command, Duration timeout) {
 }
 
 Reply Client::control(RunControl control, Duration timeout) {
-  return impl_->ask(impl_->opened().control, control, timeout);
+  Link& link = impl_->opened();
+  impl_->has_advanced();  // from here on
+  return impl_->ask(link.control, std::move(control), timeout);
+}
+
+Reply Client::lock_step(Duration patience, Duration timeout) {
+  return control({.action = ControlAction::lock_step, .timeout_ns = patience.count()}, timeout);
+}
+
+Reply Client::advance(Duration timeout) {
+  return control({.action = ControlAction::advance}, timeout);
 }
 
 }  // namespace poinsot

@@ -26,6 +26,19 @@ std::string check_domain(const std::string& text) {
          std::to_string(kMaxDomain);
 }
 
+std::string check_server(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  int port = 0;
+  if (colon != std::string::npos && colon > 0) {
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data() + colon + 1, last, port);
+    if (error == std::errc() && end == last && port >= 1 && port <= 65535) return {};
+  }
+  return "'" + text +
+         "' (option or environment variable POINSOT_DISCOVERY_SERVER) is not ADDRESS:PORT, like "
+         "127.0.0.1:11811";
+}
+
 constexpr std::array<Named<bool>, 2> kReachNames = {{{"local", false}, {"lan", true}}};
 
 class PlainFormatter : public CLI::Formatter {
@@ -94,6 +107,19 @@ std::string full_name(const CLI::App& app) {
   return verb == &app ? app.get_name() : app.get_name() + " " + verb->get_name();
 }
 
+template <class Value>
+CLI::Option* add_parsed(CLI::App& app, const std::string& name, Value& value,
+                        Value (*parse)(std::string_view), const std::string& description) {
+  const auto read = [&value, name, parse](const std::string& text) {
+    try {
+      value = parse(text);
+    } catch (const Error& error) {
+      throw CLI::ValidationError(name, error.what());
+    }
+  };
+  return app.add_option_function<std::string>(name, read, description);
+}
+
 }  // namespace
 
 std::string joined(std::span<const std::string_view> names, std::string_view separator) {
@@ -118,12 +144,27 @@ void add_bus_options(CLI::App& app, BusFlags& flags) {
       ->type_name("N");
   add_choice_option<bool>(app, "--listen", flags.lan, kReachNames,
                           "whom to talk to: this host only, or the local network [local]");
+  app.add_option("--partition", flags.partition,
+                 "only participants of the same DDS partition [environment variable "
+                 "POINSOT_PARTITION, or none]")
+      ->envname("POINSOT_PARTITION")
+      ->type_name("NAME");
+  app.add_option("--discovery-server", flags.discovery_server,
+                 "meet others at this Fast DDS discovery server instead of by greeting "
+                 "[environment variable POINSOT_DISCOVERY_SERVER]")
+      ->check(CLI::Validator(check_server, "", "server"))
+      ->envname("POINSOT_DISCOVERY_SERVER")
+      ->type_name("ADDRESS:PORT");
 }
 
 void add_verbose_option(CLI::App& app, int& verbosity) {
   app.add_flag_function(
       "-v,--verbose", [&verbosity](std::int64_t count) { verbosity = static_cast<int>(count); },
       "log more; twice: all");
+}
+
+std::string_view program_version() {
+  return POINSOT_VERSION;
 }
 
 void add_version_option(CLI::App& app) {
@@ -136,26 +177,17 @@ void set_plain_help(CLI::App& app) {
 
 CLI::Option* add_vector_option(CLI::App& app, const std::string& name, Eigen::Vector3d& value,
                                const std::string& description) {
-  const auto read = [&value, name](const std::string& text) {
-    try {
-      value = parse_vector(text);
-    } catch (const Error& error) {
-      throw CLI::ValidationError(name, error.what());
-    }
-  };
-  return app.add_option_function<std::string>(name, read, description)->type_name("X,Y,Z");
+  return add_parsed(app, name, value, parse_vector, description)->type_name("X,Y,Z");
+}
+
+CLI::Option* add_orientation_option(CLI::App& app, const std::string& name,
+                                    Eigen::Quaterniond& value, const std::string& description) {
+  return add_parsed(app, name, value, parse_orientation, description)->type_name("X,Y,Z,W");
 }
 
 CLI::Option* add_duration_option(CLI::App& app, const std::string& name,
                                  std::chrono::nanoseconds& value, const std::string& description) {
-  const auto read = [&value, name](const std::string& text) {
-    try {
-      value = parse_duration(text);
-    } catch (const Error& error) {
-      throw CLI::ValidationError(name, error.what());
-    }
-  };
-  return app.add_option_function<std::string>(name, read, description)->type_name("TIME");
+  return add_parsed(app, name, value, parse_duration, description)->type_name("TIME");
 }
 
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv,

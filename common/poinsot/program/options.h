@@ -16,6 +16,7 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "poinsot/base/names.h"
 
@@ -25,15 +26,20 @@ namespace poinsot {
 std::string unknown_choice(std::string_view word, std::span<const std::string_view> names);
 std::string joined(std::span<const std::string_view> names, std::string_view separator);
 
-// Which bus: --domain N (environment: POINSOT_DOMAIN_ID), --listen local|lan.
+// Which bus: --domain N (environment: POINSOT_DOMAIN_ID), --listen local|lan, --partition NAME
+// (POINSOT_PARTITION), --discovery-server ADDRESS:PORT (POINSOT_DISCOVERY_SERVER).
 struct BusFlags {
-  int domain = 77;   // DDS domain, 0 … 232
-  bool lan = false;  // false: this host only
+  int domain = 77;               // DDS domain, 0 … 232
+  bool lan = false;              // false: this host only
+  std::string partition;         // empty: the default one
+  std::string discovery_server;  // empty: none, participants greet each other
 };
 void add_bus_options(CLI::App& app, BusFlags& flags);
 
 // -v, --verbose: once for more, twice for all.
 void add_verbose_option(CLI::App& app, int& verbosity);
+
+std::string_view program_version();  // "0.1.0"
 
 // --version: "<name> <version>".
 void add_version_option(CLI::App& app);
@@ -42,9 +48,12 @@ void add_version_option(CLI::App& app);
 // exclusions and environment. Before verbs are added, which inherit it.
 void set_plain_help(CLI::App& app);
 
-// Options whose values are vectors "x,y,z" and durations "0.5s"; see parse.h.
+// Options whose values are vectors "x,y,z", orientations "x,y,z,w" and durations "0.5s"; see
+// parse.h.
 CLI::Option* add_vector_option(CLI::App& app, const std::string& name, Eigen::Vector3d& value,
                                const std::string& description);
+CLI::Option* add_orientation_option(CLI::App& app, const std::string& name,
+                                    Eigen::Quaterniond& value, const std::string& description);
 CLI::Option* add_duration_option(CLI::App& app, const std::string& name,
                                  std::chrono::nanoseconds& value, const std::string& description);
 

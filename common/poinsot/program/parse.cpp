@@ -41,27 +41,37 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-[[noreturn]] void not_a_vector(std::string_view text) {
-  throw Error("'" + std::string(text) +
-              "' is not a vector: expected three numbers x,y,z, like 0,0,50");
+// N finite numbers with commas between them. `expected`: what it should have been, with an example.
+template <std::size_t N>
+std::array<double, N> parse_numbers(std::string_view text, std::string_view expected) {
+  std::array<double, N> numbers{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::size_t comma = i + 1 < N ? rest.find(',') : rest.size();
+    std::string_view word = trimmed(rest.substr(0, comma));
+    const std::optional<double> value = take_number(word);
+    if (comma == std::string_view::npos || !value || !word.empty())
+      throw Error("'" + std::string(text) + "' is not " + std::string(expected));
+    if (!std::isfinite(*value)) throw Error("'" + std::string(text) + "' is not finite");
+    numbers[i] = *value;
+    if (i + 1 < N) rest.remove_prefix(comma + 1);
+  }
+  return numbers;
 }
 
 }  // namespace
 
 Eigen::Vector3d parse_vector(std::string_view text) {
-  Eigen::Vector3d vector;
-  std::string_view rest = text;
-  for (int i = 0; i < 3; ++i) {
-    const std::size_t comma = i < 2 ? rest.find(',') : rest.size();
-    if (comma == std::string_view::npos) not_a_vector(text);
-    std::string_view word = trimmed(rest.substr(0, comma));
-    const std::optional<double> value = take_number(word);
-    if (!value || !word.empty()) not_a_vector(text);
-    if (!std::isfinite(*value)) throw Error("'" + std::string(text) + "' is not finite");
-    vector[i] = *value;
-    if (i < 2) rest.remove_prefix(comma + 1);
-  }
-  return vector;
+  const auto v = parse_numbers<3>(text, "a vector: expected three numbers x,y,z, like 0,0,50");
+  return {v[0], v[1], v[2]};
+}
+
+Eigen::Quaterniond parse_orientation(std::string_view text) {
+  const auto q =
+      parse_numbers<4>(text, "a quaternion: expected four numbers x,y,z,w, like 0,0,0,1");
+  const Eigen::Quaterniond orientation(q[3], q[0], q[1], q[2]);
+  if (!(orientation.squaredNorm() > 0)) throw Error("'" + std::string(text) + "' is no rotation");
+  return orientation.normalized();
 }
 
 std::chrono::nanoseconds parse_duration(std::string_view text) {

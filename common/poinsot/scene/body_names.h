@@ -16,7 +16,8 @@ namespace poinsot {
 class BodyNames {
  public:
   explicit BodyNames(const Scene& scene) : scene_(scene) {
-    for (const BodyDef& body : scene.bodies) bodies_.emplace(body.name, &body);
+    for (const BodyDef& body : scene.bodies)
+      if (!body.absent) bodies_.emplace(body.name, &body);
   }
 
   // The body of that name (of two, the first), or nothing.

@@ -5,8 +5,6 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "poinsot/base/check.h"
-
 namespace poinsot {
 namespace {
 
@@ -22,23 +20,64 @@ PairRule of_materials(const Material& a, const Material& b) {
 }  // namespace
 
 PairRules::PairRules(const Scene& scene) : is_named_(scene.bodies.size()) {
-  std::unordered_map<std::string_view, std::size_t> columns;
+  std::unordered_map<std::string_view, Eigen::Index> columns;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    materials_.push_back(scene.bodies[i].material);
-    columns.emplace(scene.bodies[i].name, i);
+    const BodyDef& body = scene.bodies[i];
+    materials_.push_back(body.material);
+    if (!body.absent) columns.emplace(body.name, static_cast<Eigen::Index>(i));
   }
-  for (const PairDef& pair : scene.pairs) {
-    const auto a = columns.find(pair.a), b = columns.find(pair.b);
-    POINSOT_CHECK(a != columns.end() && b != columns.end());
-    PairRule rule = of_materials(materials_[a->second], materials_[b->second]);
-    rule.friction = pair.friction.value_or(rule.friction);
-    rule.restitution = pair.restitution.value_or(rule.restitution);
-    rule.collide = pair.collide;
-    entries_.push_back(
-        {key_of(static_cast<Eigen::Index>(a->second), static_cast<Eigen::Index>(b->second)), rule});
-    is_named_[a->second] = is_named_[b->second] = true;
+  const auto column = [&](const std::string& name) {
+    const auto found = columns.find(name);
+    return found == columns.end() ? kNobody : found->second;
+  };
+  for (const PairDef& def : scene.pairs) {
+    named_.push_back({def, column(def.a), column(def.b)});
+    const Named& named = named_.back();
+    if (named.a == kNobody || named.b == kNobody) continue;
+    entries_.push_back(entry_of(named));
+    is_named_[static_cast<std::size_t>(named.a)] = is_named_[static_cast<std::size_t>(named.b)] =
+        true;
   }
   std::ranges::sort(entries_, {}, &Entry::bodies);
+}
+
+PairRules::Entry PairRules::entry_of(const Named& named) const {
+  PairRule rule = of_materials(materials_[static_cast<std::size_t>(named.a)],
+                               materials_[static_cast<std::size_t>(named.b)]);
+  rule.friction = named.def.friction.value_or(rule.friction);
+  rule.restitution = named.def.restitution.value_or(rule.restitution);
+  rule.collide = named.def.collide;
+  return {key_of(named.a, named.b), rule};
+}
+
+void PairRules::add(Eigen::Index column, const BodyDef& body) {
+  const auto k = static_cast<std::size_t>(column);
+  if (k == materials_.size()) {
+    materials_.emplace_back();
+    is_named_.push_back(false);
+  }
+  materials_[k] = body.material;
+  for (Named& named : named_) {
+    if (named.def.a != body.name && named.def.b != body.name) continue;
+    (named.def.a == body.name ? named.a : named.b) = column;
+    if (named.a == kNobody || named.b == kNobody) continue;
+    const Entry entry = entry_of(named);
+    entries_.insert(std::ranges::upper_bound(entries_, entry.bodies, {}, &Entry::bodies), entry);
+    is_named_[static_cast<std::size_t>(named.a)] = is_named_[static_cast<std::size_t>(named.b)] =
+        true;
+  }
+}
+
+void PairRules::remove(Eigen::Index column) {
+  std::erase_if(entries_, [column](const Entry& entry) {
+    return static_cast<Eigen::Index>(entry.bodies >> 32U) == column ||
+           static_cast<Eigen::Index>(entry.bodies & 0xffffffffU) == column;
+  });
+  for (Named& named : named_) {
+    if (named.a == column) named.a = kNobody;
+    if (named.b == column) named.b = kNobody;
+  }
+  is_named_[static_cast<std::size_t>(column)] = false;
 }
 
 const PairRule* PairRules::find(Eigen::Index a, Eigen::Index b) const {

@@ -3,7 +3,9 @@
 // The materials say it, friction by the geometric mean and restitution by the maximum, unless the
 // scene has an entry in `pairs`. Bodies are columns, their places in the scene. A body that is in
 // no entry costs one look-up in a table, others a binary search among the entries; a scene without
-// entries nothing. Symmetric, does not allocate, thread-safe.
+// entries nothing. Symmetric; questions do not allocate and are thread-safe.
+//
+// Entries name bodies: they hold for whoever has these names. Bodies come and go.
 
 #pragma once
 
@@ -25,6 +27,10 @@ class PairRules {
   PairRules() = default;
   explicit PairRules(const Scene& scene);  // of a valid scene
 
+  // The body of an absent column or of the next one; a body that goes.
+  void add(Eigen::Index column, const BodyDef& body);
+  void remove(Eigen::Index column);
+
   bool collide(Eigen::Index a, Eigen::Index b) const {
     if (entries_.empty()) return true;
     const PairRule* entry = find(a, b);
@@ -37,11 +43,19 @@ class PairRules {
     std::uint64_t bodies;  // the lower column above, the higher below
     PairRule rule;
   };
+  struct Named {
+    PairDef def;
+    Eigen::Index a = kNobody, b = kNobody;  // who has these names
+  };
+  static constexpr Eigen::Index kNobody = -1;
+
   const PairRule* find(Eigen::Index a, Eigen::Index b) const;
+  Entry entry_of(const Named& named) const;
 
   std::vector<Material> materials_;  // of the bodies
   std::vector<bool> is_named_;       // bodies: in an entry
-  std::vector<Entry> entries_;       // sorted by bodies
+  std::vector<Named> named_;         // entries of the scene
+  std::vector<Entry> entries_;       // of those whose bodies are both there, sorted by bodies
 };
 
 }  // namespace poinsot

@@ -213,6 +213,12 @@ class Validation {
   }
 
   void check_body(const BodyDef& body, const std::string& path) {
+    if (body.generation == 0)
+      add(body.where, path, "a body's generation must be > 0: 0 is that of no body");
+    if (body.absent) {
+      if (!body.shapes.empty()) add(body.where, path + ".shapes", "an absent body has no shape");
+      return;
+    }
     add(body.where, path + ".name", name_fault(body.name));
     const auto [first, is_new] = names_.emplace(body.name, body.where.empty() ? path : body.where);
     if (!is_new)

@@ -15,7 +15,10 @@ namespace {
 
 class PairValidation {
  public:
-  explicit PairValidation(const Scene& scene) : scene_(scene), bodies_(scene) {}
+  explicit PairValidation(const Scene& scene) : scene_(scene), bodies_(scene) {
+    for (const BodyDef& body : scene.bodies)
+      bodies_went_ = bodies_went_ || body.absent || body.generation > 1;
+  }
 
   std::vector<SceneFault> run() {
     if (scene_.pairs.size() > kMaxPairs)
@@ -45,8 +48,8 @@ class PairValidation {
 
     const BodyDef* a = bodies_.find(pair.a);
     const BodyDef* b = bodies_.find(pair.b);
-    if (!a) add("a", bodies_.unknown(pair.a));
-    if (!b) add("b", bodies_.unknown(pair.b));
+    if (!a && !bodies_went_) add("a", bodies_.unknown(pair.a));
+    if (!b && !bodies_went_) add("b", bodies_.unknown(pair.b));
     if (!a || !b) return;
     if (a == b) return add("b", "a pair must name two bodies, both are " + in_quotes(pair.a));
     const auto [first, is_new] = firsts_.emplace(std::minmax(a, b), std::pair(&pair, path_));
@@ -58,6 +61,7 @@ class PairValidation {
 
   const Scene& scene_;
   BodyNames bodies_;
+  bool bodies_went_ = false;  // in a run: their names may still be in pairs, should they come back
   std::string path_;  // of the pair that is looked at
   std::map<std::pair<const BodyDef*, const BodyDef*>, std::pair<const PairDef*, std::string>>
       firsts_;

@@ -28,6 +28,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include "poinsot/wire/diagnosis.h"
 #include "poinsot/wire/participant.h"
 #include "poinsot/wire/queue_number.h"
 
@@ -219,6 +220,17 @@ int remove_stale_segments() {
       if (const QueueGuard guard(queue); guard.held()) removed += remove_queue(queue, guard);
   if (all_processes_are_visible()) removed += remove_unmapped(found);
   return removed;
+}
+
+SharedFiles shared_files() {
+  const std::vector<std::string> names = names_in("/dev/shm");
+  SharedFiles files;
+  for (const std::string& name : names)
+    files.files +=
+        name.find("fastrtps_") != std::string::npos || name.starts_with("fast_datasharing_");
+  for (const std::string& segment : sort_names(names).segments)
+    files.stale_segments += LockProbe(segment + "_el").state() == LockProbe::State::free;
+  return files;
 }
 
 }  // namespace poinsot

@@ -126,18 +126,13 @@ void Sleep::archive(Archive& with, const CollisionState& state) {
   }
 }
 
-// Who is awake is looked at before every frame; who is woken in one, as last looked at.
 template <class Archive>
-void Crowd::archive(Archive& with, const CollisionState& state) {
+void Crowd::archive(Archive& with) {
   with(everybody_, frame_);
   with.fixed(member_);
   with.fixed(may_step_);
   with.fixed(forced_);
   with.fixed(promoted_);
-  with.some(near_, [&](std::size_t c) {
-    const auto k = static_cast<std::size_t>(state.colliders[c].body);
-    return member_[k] != 0 && state.asleep[k] != 0;
-  });
 }
 
 template <class Archive>
@@ -151,14 +146,18 @@ void FrameMotion::archive(Archive& with) {
   for (const std::size_t n : {world.ids.size(), state_.colliders.size(), world.systems.size()})
     agree(n);
   for (const BodyId id : world.ids) agree(id.generation);
+  if (shapes_changed_) fit_to_shapes();
   with(state_, broad_phase_);
   if constexpr (Archive::kReads)
     for (std::size_t c = 0; c < state_.bound.size(); ++c)
       broad_phase_.set(static_cast<int>(c), state_.bound[c]);
   sleep_.archive(with, state_);
-  crowd_.archive(with, state_);
+  with(crowd_);
   with.fixed(strain_);
   with.fixed(bounded_);
+  with(moved_);
+  for (const Eigen::Index i : moved_)
+    if (i < 0 || i >= world.size()) ByteReader::fail();
   with(boxes_changed_, touched_, rests_);
 }
 

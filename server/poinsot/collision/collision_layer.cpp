@@ -108,6 +108,8 @@ double CollisionLayer::energy() const {
 
 EnergyBalance CollisionLayer::energy_balance() {
   const World& now = std::as_const(*this).world();
+  if (scale_is_old_) energy_scale_.widen(now);
+  scale_is_old_ = false;
   const double kinetic = kinetic_energy(now);
   energy_scale_.see(kinetic + tether_energy(now));  // what clients do may be larger than the scene
   const double energy = kinetic + potential_energy(now);
@@ -119,25 +121,47 @@ void CollisionLayer::hash_into(Hash64& hash) const {
   std::as_const(*frame_).motion.hash_into(hash);
 }
 
-Eigen::Index CollisionLayer::spawn(const BodyDef&) {
-  throw Error("spawn: not yet");
+Eigen::Index CollisionLayer::spawn(const BodyDef& body) {
+  const double before = spring_energy(std::as_const(*this).world());
+  const Eigen::Index i = frame_->motion.spawn(body);
+  take_as_given(energy_about(i) - before);
+  return i;
 }
-void CollisionLayer::remove(Eigen::Index) {
-  throw Error("remove: not yet");
+
+void CollisionLayer::remove(Eigen::Index i) {
+  const double before = energy_about(i);
+  frame_->motion.remove(i);
+  take_as_given(energy_about(i) - before);
 }
-void CollisionLayer::set_state(Eigen::Index, const Pose&, const Velocity&) {
-  throw Error("set_state: not yet");
+
+void CollisionLayer::set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity) {
+  const double before = energy_about(i);
+  frame_->motion.set_state(i, pose, velocity);
+  take_as_given(energy_about(i) - before);
 }
-void CollisionLayer::kick(Eigen::Index, const Wrench&) {
-  throw Error("kick: not yet");
+
+void CollisionLayer::kick(Eigen::Index i, const Wrench& impulse) {
+  frame_->motion.kick(i, impulse);
 }
+
+// All that a change of body i may change.
+double CollisionLayer::energy_about(Eigen::Index i) const {
+  return kinetic_energy(world(), i) + potential_energy(world(), i) + spring_energy(world());
+}
+
+// Energy that came, or went, by a change from outside: no error of the motion.
+void CollisionLayer::take_as_given(double energy) {
+  start_energy_ += energy;
+  scale_is_old_ = true;
+}
+
 void CollisionLayer::set_tethers(std::span<const Tether> tethers) {
   frame_->motion.set_tethers(tethers);
 }
 
 template <class Archive>
 void CollisionLayer::archive(Archive& with) {
-  with(frame_->motion, report_, energy_scale_, start_energy_, quarantined_);
+  with(frame_->motion, report_, energy_scale_, scale_is_old_, start_energy_, quarantined_);
 }
 
 void CollisionLayer::save(ByteWriter& out) const {

@@ -106,7 +106,8 @@ class CollisionLayer {
   double energy_error() { return energy_balance().error; }
 
   // Changes from outside, between frames. Each wakes what it touches and leaves the courses of all
-  // other bodies alone, to the bit; the energy balance starts afresh.
+  // other bodies alone, to the bit. The energy balance takes what they bring, or take away, as
+  // given; that of a kick is work.
 
   // Adds a body that is valid in itself and with the others (its name and generation included), in
   // the first absent column or a new one.
@@ -114,7 +115,7 @@ class CollisionLayer {
   // Its column becomes absent: no shape, no mass, found by nobody. Springs to it go with it.
   void remove(Eigen::Index i);
   // Pose of B in W and velocity of the centre of mass of a dynamic or kinematic body; of a static
-  // one the pose.
+  // one the pose. What overlaps then is pushed out at bounded speed. A frozen body moves again.
   void set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity);
   // Changes P and L of a dynamic body at once: impulse [N·s] and angular impulse [N·m·s] about the
   // centre of mass, in W.
@@ -140,6 +141,8 @@ class CollisionLayer {
   template <class Archive>
   void archive(Archive& with);
   void rebase_energy();
+  double energy_about(Eigen::Index i) const;
+  void take_as_given(double energy);
   double expected_energy() const;  // [J] from the start, the work and the losses
 
   struct Frame;  // keeps geometry out of the layers above
@@ -147,7 +150,8 @@ class CollisionLayer {
   CollisionReport report_;
   std::vector<ImpactEvent> impacts_;
   EnergyScale energy_scale_;
-  double start_energy_;  // [J]
+  bool scale_is_old_ = false;  // bodies came, went or were moved since
+  double start_energy_;        // [J]
   std::uint32_t quarantined_ = 0;
   CollisionTimes times_;
   CpuShare cpu_share_;

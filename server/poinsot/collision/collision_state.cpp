@@ -2,18 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace poinsot {
 
+std::vector<Collider> make_colliders(Eigen::Index column, const BodyDef& body) {
+  std::vector<Collider> colliders;
+  for (const ShapeDef& def : body.shapes)
+    colliders.emplace_back(column, def.shape,
+                           Pose{def.pose.c - body.mass_properties.center_of_mass, def.pose.q});
+  return colliders;
+}
+
 std::vector<Collider> make_colliders(const Scene& scene) {
   std::vector<Collider> colliders;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    const BodyDef& body = scene.bodies[k];
-    for (const ShapeDef& def : body.shapes)
-      colliders.emplace_back(static_cast<Eigen::Index>(k), def.shape,
-                             Pose{def.pose.c - body.mass_properties.center_of_mass, def.pose.q});
-  }
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    std::ranges::move(make_colliders(static_cast<Eigen::Index>(k), scene.bodies[k]),
+                      std::back_inserter(colliders));
   return colliders;
 }
 
@@ -23,7 +29,7 @@ CollisionState::CollisionState(const Scene& scene)
       colliders(make_colliders(scene)),
       arm(scene.bodies.size(), 0),
       has_corners(scene.bodies.size(), 0),
-      least_size(scene.bodies.size(), std::numeric_limits<double>::infinity()),
+      least_size(scene.bodies.size(), 0),
       pairs(scene.bodies.size()),
       stamp(scene.bodies.size(), 1),
       body_time(scene.bodies.size(), 0),
@@ -32,17 +38,81 @@ CollisionState::CollisionState(const Scene& scene)
       bounds_until(scene.bodies.size(), 0),
       asleep(scene.bodies.size(), 0),
       bound(colliders.size()) {
-  for (const BodyDef& body : scene.bodies) materials.push_back(body.material);
   first_collider.assign(scene.bodies.size() + 1, 0);
-  for (const Collider& collider : colliders) {
-    const auto k = static_cast<std::size_t>(collider.body);
-    ++first_collider[k + 1];
+  for (const Collider& collider : colliders)
+    ++first_collider[static_cast<std::size_t>(collider.body) + 1];
+  for (std::size_t k = 1; k < first_collider.size(); ++k)
+    first_collider[k] += first_collider[k - 1];
+  for (Eigen::Index i = 0; i < world().size(); ++i) measure_shapes(i);
+}
+
+void CollisionState::measure_shapes(Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  arm[k] = 0;
+  has_corners[k] = 0;
+  least_size[k] = std::numeric_limits<double>::infinity();
+  for (const Collider& collider : colliders_of(i)) {
     if (poinsot::has_corners(collider)) has_corners[k] = 1;
     least_size[k] = std::min(least_size[k], collider.size);
     arm[k] = std::max(arm[k], collider.in_body.c.norm() + collider.bounding_radius);
   }
-  for (std::size_t k = 1; k < first_collider.size(); ++k)
-    first_collider[k] += first_collider[k - 1];
+}
+
+Eigen::Index CollisionState::add(const BodyDef& body) {
+  const Eigen::Index i = simulation.add(body);
+  const auto k = static_cast<std::size_t>(i);
+  if (k == stamp.size()) {
+    first_collider.push_back(first_collider.back());
+    arm.push_back(0);
+    has_corners.push_back(0);
+    least_size.push_back(0);
+    pairs.add_body();
+    stamp.push_back(0);
+    body_time.push_back(0);
+    courses.emplace_back();
+    course_stamp.push_back(0);
+    bounds_until.push_back(0);
+    asleep.push_back(0);
+    for (std::size_t j = 0; j < k; ++j)
+      if (courses[j].kind() == Course::Kind::flight)
+        courses[j].use(simulation.flight(static_cast<Eigen::Index>(j)));
+  }
+  std::vector<Collider> its = make_colliders(i, body);
+  const int first = first_collider[k], count = static_cast<int>(its.size());
+  pairs.insert_colliders(first, count);
+  colliders.insert(colliders.begin() + first, std::make_move_iterator(its.begin()),
+                   std::make_move_iterator(its.end()));
+  bound.insert(bound.begin() + first, its.size(), Aabb{});
+  for (std::size_t j = k + 1; j < first_collider.size(); ++j) first_collider[j] += count;
+  measure_shapes(i);
+  begin_anew(i);
+  return i;
+}
+
+bool CollisionState::remove(Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  const bool sprung = simulation.remove(i);
+  const int first = first_collider[k], count = first_collider[k + 1] - first;
+  pairs.erase_colliders(first, count);
+  colliders.erase(colliders.begin() + first, colliders.begin() + first + count);
+  bound.erase(bound.begin() + first, bound.begin() + first + count);
+  for (std::size_t j = k + 1; j < first_collider.size(); ++j) first_collider[j] -= count;
+  measure_shapes(i);
+  begin_anew(i);
+  return sprung;
+}
+
+void CollisionState::set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity) {
+  simulation.set_state(i, pose, velocity);
+  for (const int r : pairs.of(i)) pairs.forget(pairs[r]);
+  begin_anew(i);
+}
+
+void CollisionState::begin_anew(Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  change_course(i);
+  body_time[k] = world().time;
+  bounds_until[k] = world().time;
 }
 
 std::span<const Collider> CollisionState::colliders_of(Eigen::Index i) const {

@@ -21,6 +21,12 @@ struct CollisionState {
   }
   std::span<const Collider> colliders_of(Eigen::Index i) const;
 
+  // Changes from outside. A body that comes has no pairs and no boxes yet; from one that goes the
+  // records of its pairs are dropped; with springs, as SimulationLayer::remove() says.
+  Eigen::Index add(const BodyDef& body);
+  bool remove(Eigen::Index i);
+  void set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity);
+
   // The body's course is another one from now on: what was found out about its pairs is void.
   void change_course(Eigen::Index i) { ++stamp[static_cast<std::size_t>(i)]; }
   // The course of a body that is at body_time, until `to` at least.
@@ -39,7 +45,6 @@ struct CollisionState {
 
   CollisionDef def;
   SimulationLayer simulation;
-  std::vector<Material> materials;        // per body
   std::vector<Collider> colliders;        // in body order
   std::vector<int> first_collider;        // per body, and the end
   std::vector<double> arm;                // [m] per body: no point of its shapes is farther from c
@@ -56,10 +61,15 @@ struct CollisionState {
   std::vector<std::uint8_t> asleep;
 
   std::vector<Aabb> bound;  // per collider: it stays inside until bounds_until, but for impacts
+
+ private:
+  void measure_shapes(Eigen::Index i);
+  void begin_anew(Eigen::Index i);
 };
 
-// The colliders of all bodies of a scene, in body order.
+// The colliders of all bodies of a scene, in body order, and those of one.
 std::vector<Collider> make_colliders(const Scene& scene);
+std::vector<Collider> make_colliders(Eigen::Index column, const BodyDef& body);
 
 // Pose of a collider of a body whose centre of mass is at `pose`, in W.
 inline Pose collider_pose(const Collider& collider, const Pose& pose) {

@@ -48,41 +48,64 @@ double crowd_travel(const CollisionState& state, Eigen::Index i, const Vec3& ome
 }
 
 Crowd::Crowd(const CollisionState& state)
-    : member_(state.stamp.size(), 0),
-      may_step_(state.stamp.size(), 0),
-      fits_(state.stamp.size(), 0),
-      near_(state.colliders.size()),
-      level_(state.stamp.size(), 0),
-      forced_(state.stamp.size(), 0),
-      promoted_(state.stamp.size(), 0) {
-  const World& world = state.world();
-  for (Eigen::Index i = 0; i < world.size(); ++i) look_at_forces(world, i);
+    : always_(state.def.contact_solver == ContactSolverKind::soft_step),
+      usual_(prefers_crowd(state.def)) {
+  for (Eigen::Index i = 0; i < state.world().size(); ++i) set_body(state, i);
+  fit_to_shapes(state);
+}
+
+void Crowd::set_body(const CollisionState& state, Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  if (k == member_.size()) {
+    member_.push_back(0);
+    may_step_.push_back(0);
+    counted_.push_back(0);
+    looked_.push_back(0);
+    fits_.push_back(0);
+    level_.push_back(0);
+    forced_.push_back(0);
+    promoted_.push_back(0);
+  }
+  forced_[k] = 0;
+  promoted_[k] = 0;
+  look_at_forces(state.world(), i);
+  set_member(i, everybody_);
+}
+
+void Crowd::fit_to_shapes(const CollisionState& state) {
+  near_.resize(state.colliders.size());
+  kind_.clear();
+  has_mesh_ = false;
   for (const Collider& collider : state.colliders) {
     const bool plane = std::holds_alternative<HalfSpace>(collider.shape);
     const bool mesh = std::holds_alternative<Mesh>(collider.shape);
     kind_.push_back(plane ? Kind::plane : mesh ? Kind::mesh : Kind::solid);
     has_mesh_ = has_mesh_ || mesh;
   }
-  usual_ = prefers_crowd(state.def);
-  const auto moving = static_cast<std::size_t>(std::count(may_step_.begin(), may_step_.end(), 1));
-  everybody_ =
-      state.def.contact_solver == ContactSolverKind::soft_step || (usual_ && moving > kMostMoving);
-  if (everybody_) member_ = may_step_;
 }
 
 void Crowd::look_at_forces(const World& world, Eigen::Index i) {
   const auto k = static_cast<std::size_t>(i);
-  const bool lone = world.systems.empty() || world.system_of[k] == World::kLone;
+  const int system = world.systems.empty() ? World::kLone : world.system_of[k];
   const bool drags =
       !world.drag.empty() &&
       (world.drag[k].linear > 0 || world.drag[k].quadratic > 0 || world.drag[k].angular > 0);
-  may_step_[k] = world.moves(i) && lone && !drags ? 1 : 0;
+  may_step_[k] = world.moves(i) && system == World::kLone && !drags ? 1 : 0;
   if (may_step_[k] == 0) member_[k] = 0;
+
+  const bool sprung = system != World::kLone && system < static_cast<int>(world.scene_systems);
+  count_ -= counted_[k];
+  counted_[k] = world.mass[k] > 0 && !sprung && !drags ? 1 : 0;
+  count_ += counted_[k];
+  const bool before = everybody_;
+  everybody_ = always_ || (usual_ && count_ > kMostMoving);
+  if (everybody_ && !before) member_ = may_step_;
 }
 
 void Crowd::next_frame() {
   ++frame_;
   before_ = member_;
+  std::fill(looked_.begin(), looked_.end(), 0);
   for (int& frames : promoted_) frames = std::max(0, frames - 1);
 }
 
@@ -109,7 +132,9 @@ void Crowd::set_member(Eigen::Index i, bool member) {
 void Crowd::look(const CollisionState& state, double h, Team& team) {
   run_chunks(team, member_.size(), [&](std::size_t k) {
     const auto i = static_cast<Eigen::Index>(k);
-    if (member_[k] != 0 && state.is_awake(i)) fits_[k] = look(state, i, h) ? 1 : 0;
+    if (member_[k] == 0 || !state.is_awake(i)) return;
+    looked_[k] = 1;
+    fits_[k] = look(state, i, h) ? 1 : 0;
   });
 }
 
@@ -149,7 +174,8 @@ Aabb Crowd::roomy_box(const CollisionState& state, const Collider& collider, dou
 bool Crowd::is_near(const CollisionState& state, const PairRecord& record) const {
   const auto box = [&](int collider, int body) -> const Aabb& {
     const auto c = static_cast<std::size_t>(collider);
-    return had(body) && state.is_awake(body) ? near_[c] : state.bound[c];
+    const bool known = looked_[static_cast<std::size_t>(body)] != 0;  // or it slept
+    return known && state.is_awake(body) ? near_[c] : state.bound[c];
   };
   const auto is_plane = [&](int collider) {
     return kind_[static_cast<std::size_t>(collider)] == Kind::plane;

@@ -40,6 +40,10 @@ class Crowd {
  public:
   explicit Crowd(const CollisionState& state);
 
+  // Body i came, went, or begins anew; the shapes of bodies are others.
+  void set_body(const CollisionState& state, Eigen::Index i);
+  void fit_to_shapes(const CollisionState& state);
+
   // Whether a body was in the crowd in the last frame, or is likely to be: its pairs are not
   // searched before islands are parted.
   bool has(Eigen::Index i) const { return member_[static_cast<std::size_t>(i)] != 0; }
@@ -76,7 +80,7 @@ class Crowd {
   // Adds what a continuation depends on.
   void hash_into(Hash64& hash) const;
   template <class Archive>
-  void archive(Archive& with, const CollisionState& state);
+  void archive(Archive& with);
   // Whether an island is stepped with the crowd in the frame that begins. `strain` per body:
   // of the last step (CrowdStep).
   bool takes(const CollisionState& state, const Island& island, std::span<const double> strain,
@@ -90,15 +94,19 @@ class Crowd {
   bool is_shallow(const CollisionState& state, const Island& island);
 
   bool everybody_ = false;
+  bool always_ = false;               // whatever there is
   bool usual_ = false;                // bodies are in the crowd unless something speaks against it
   std::vector<std::uint8_t> member_;  // per body
   std::vector<std::uint8_t> before_;  // per body: member_ when the frame began
   std::vector<std::uint8_t> may_step_;  // per body: nothing acts on it that soft_step does not know
-  std::vector<std::uint8_t> fits_;      // per body
+  std::vector<std::uint8_t> counted_;   // per body: the same, tethers and quarantine aside
+  std::size_t count_ = 0;               // of them
+  std::vector<std::uint8_t> looked_;    // per body: it was looked at in this frame, so that …
+  std::vector<std::uint8_t> fits_;      // … this holds
   enum class Kind : std::uint8_t { solid, plane, mesh };
   std::vector<Kind> kind_;  // per collider: close together
   bool has_mesh_ = false;
-  std::vector<Aabb> near_;  // per collider of a body looked at
+  std::vector<Aabb> near_;  // per collider of a body that was
 
   std::vector<int> level_;  // per body: of a stack, while it is counted
   std::uint64_t frame_ = 1;

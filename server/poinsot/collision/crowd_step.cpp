@@ -59,13 +59,13 @@ void take_over(const PairContact& solved, const Pose& pose_a, const Pose& pose_b
 
 }  // namespace
 
-CrowdStep::CrowdStep(const CollisionState& state)
-    : pose_(state.colliders.size()),
-      radius_(state.colliders.size(), 0),
-      travel_(state.stamp.size(), 0),
-      placed_(state.stamp.size(), 0),
-      local_(state.stamp.size(), -1) {
-  for (std::size_t c = 0; c < radius_.size(); ++c) radius_[c] = state.colliders[c].bounding_radius;
+void CrowdStep::fit(const CollisionState& state) {
+  pose_.resize(state.colliders.size());
+  radius_.clear();
+  for (const Collider& collider : state.colliders) radius_.push_back(collider.bounding_radius);
+  travel_.resize(state.stamp.size(), 0);
+  placed_.resize(state.stamp.size(), 0);
+  local_.resize(state.stamp.size(), -1);
 }
 
 // How often what is near is looked at.

@@ -29,7 +29,10 @@ inline constexpr double kLook = 0.5;
 // One thread's means. Islands stepped at the same time by several of them share no body that moves.
 class CrowdStep {
  public:
-  explicit CrowdStep(const CollisionState& state);
+  explicit CrowdStep(const CollisionState& state) { fit(state); }
+
+  // To bodies and shapes that came or went.
+  void fit(const CollisionState& state);
 
   struct Result {
     Tally tally;

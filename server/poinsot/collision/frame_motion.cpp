@@ -38,28 +38,6 @@ FrameMotion::FrameMotion(const Scene& scene)
     if (!state_.world().moves(i) && !state_.world().is_kinematic(i)) place_resting(i);
 }
 
-// A body that does not move: its boxes and its course hold for ever.
-void FrameMotion::place_resting(Eigen::Index i) {
-  const World& world = state_.world();
-  const Pose pose{position(world.y, i), orientation(world.y, i)};
-  for (const Collider& collider : state_.colliders_of(i)) {
-    const auto k = static_cast<int>(&collider - state_.colliders.data());
-    broad_phase_.set_moves(k, false);
-    if (const auto* plane = std::get_if<HalfSpace>(&collider.shape)) {
-      const Pose placed = collider_pose(collider, pose);
-      const Vec3 normal = placed.q * plane->normal;
-      broad_phase_.set_plane(k, normal, plane->offset + normal.dot(placed.c));
-      continue;
-    }
-    state_.bound[static_cast<std::size_t>(k)] = bounds(collider, collider_pose(collider, pose));
-    broad_phase_.set(k, state_.bound[static_cast<std::size_t>(k)]);
-  }
-  state_.bounds_until[static_cast<std::size_t>(i)] = kForEver;
-  state_.body_time[static_cast<std::size_t>(i)] = world.time;
-  state_.course(i, kForEver, false, motions_.front().worker());
-  boxes_changed_ = true;
-}
-
 // Courses of tethered bodies begin afresh in every frame, as those of all driven ones do.
 void FrameMotion::set_tethers(std::span<const Tether> tethers) {
   const World& world = state_.world();
@@ -93,11 +71,13 @@ void FrameMotion::advance_to(double t_end, CollisionReport& report,
   SearchWork work;
   {
     const Stopwatch::WallLap lap(times.collision.wall_s);
+    if (shapes_changed_) fit_to_shapes();
     if (touched_) sleep_.wake_changed(state_);
     touched_ = false;
     settle_courses();
     state_.simulation.freeze_unsound(awake_, tally);  // before any geometry query
     if (tally.quarantined > 0) place_frozen();
+    wake_touched();
     set_bounds(t_end);
     update_pairs();
     find_excited(t_end, work);
@@ -151,7 +131,6 @@ void FrameMotion::set_bounds(double t_end) {
       if (!crowd_.fits(i)) {
         for (const Collider& collider : state_.colliders_of(i))
           place_box(collider, crowd_.roomy_box(state_, collider, h));
-        boxes_changed_ = true;
       }
       bounded_[k] = state_.stamp[k];
       state_.bounds_until[k] = t_end;
@@ -178,10 +157,8 @@ void FrameMotion::set_bounds(double t_end) {
 }
 
 void FrameMotion::place_box(const Collider& collider, const Aabb& box) {
-  const auto c = static_cast<int>(&collider - state_.colliders.data());
-  state_.bound[static_cast<std::size_t>(c)] = box;
-  broad_phase_.set(c, box);
-  broad_phase_.set_moves(c, true);
+  state_.bound[static_cast<std::size_t>(&collider - state_.colliders.data())] = box;
+  show(collider);
 }
 
 // `more` [m]: beside what the body reaches by itself.
@@ -191,7 +168,6 @@ void FrameMotion::set_bound(Eigen::Index i, double until, double more) {
     place_box(collider, reach_box(state_, collider, state_.world().time, until).grown(more));
   bounded_[k] = state_.stamp[k];
   state_.bounds_until[k] = until;
-  boxes_changed_ = true;
 }
 
 void FrameMotion::update_pairs() {

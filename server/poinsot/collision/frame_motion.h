@@ -28,6 +28,12 @@ class FrameMotion {
   template <class Archive>
   void archive(Archive& with);
 
+  // Changes from outside, between frames (frame_changes.cpp).
+  Eigen::Index spawn(const BodyDef& body);
+  void remove(Eigen::Index i);
+  void set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity);
+  void kick(Eigen::Index i, const Wrench& impulse);
+
   void touch() { touched_ = true; }
   void set_tethers(std::span<const Tether> tethers);
   CollisionState& state() { return state_; }
@@ -52,7 +58,13 @@ class FrameMotion {
   void fly_the_rest(double t_end, Tally& tally);
   void close(double t_end, CollisionReport& report, std::vector<ImpactEvent>& impacts,
              const Tally& tally);
+  void place(Eigen::Index i);
   void place_resting(Eigen::Index i);
+  void show(const Collider& collider);
+  void begin_anew(Eigen::Index i);
+  void wake_around(Eigen::Index i);
+  void wake_touched();
+  void fit_to_shapes();
 
   CollisionState state_;
   Team team_;
@@ -79,8 +91,10 @@ class FrameMotion {
   std::vector<Tally> rest_tallies_;
   std::vector<std::uint8_t> tired_;  // per island
   bool boxes_changed_ = true;
-  bool touched_ = true;  // the world may have been changed from outside
-  bool rests_ = false;   // nothing moves
+  bool shapes_changed_ = false;      // of the state, since the broad phase and the crowd were made
+  std::vector<Eigen::Index> moved_;  // bodies that came or were moved since the last frame
+  bool touched_ = true;              // the world may have been changed from outside
+  bool rests_ = false;               // nothing moves
 };
 
 }  // namespace poinsot

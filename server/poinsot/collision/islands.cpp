@@ -11,6 +11,11 @@ Islands::Islands(std::size_t bodies) : parent_(bodies, 0), island_of(bodies, kNo
   before_.resize(std::min(bodies, kReady));
 }
 
+void Islands::fit(std::size_t bodies) {
+  parent_.resize(bodies, 0);
+  island_of.resize(bodies, kNone);
+}
+
 int Islands::root(int body) {
   while (parent_[static_cast<std::size_t>(body)] != body) {
     int& up = parent_[static_cast<std::size_t>(body)];

@@ -11,6 +11,8 @@ class Islands {
  public:
   explicit Islands(std::size_t bodies);
 
+  void fit(std::size_t bodies);
+
   static constexpr int kNone = -1;
 
   // Joins the bodies of every record of an excited body, and systems that have one. Islands of the

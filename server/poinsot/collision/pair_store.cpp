@@ -34,7 +34,7 @@ void PairStore::make_crowd_contact(PairRecord& record) {
   }
   record.crowd_contact = free_crowd_.back();
   free_crowd_.pop_back();
-  crowd_contact(record).forget();
+  crowd_contact(record) = {};
 }
 
 void PairStore::drop(const PairRecord& record) {
@@ -48,6 +48,36 @@ void PairStore::drop(const PairRecord& record) {
   contact.measured = {};
   contact.digest = 0;
   free_.push_back(record.contact);
+}
+
+void PairStore::forget(PairRecord& record) {
+  drop(record);
+  PairRecord fresh;
+  fresh.pair = record.pair;
+  fresh.a = record.a;
+  fresh.b = record.b;
+  fresh.size = record.size;
+  fresh.friction = record.friction;
+  fresh.restitution = record.restitution;
+  record = fresh;
+}
+
+void PairStore::insert_colliders(int first, int count) {
+  for (PairRecord& record : records_)
+    for (int* collider : {&record.pair.a, &record.pair.b})
+      if (*collider >= first) *collider += count;
+}
+
+void PairStore::erase_colliders(int first, int count) {
+  const auto goes = [&](int collider) { return collider >= first && collider < first + count; };
+  const std::size_t before = records_.size();
+  std::erase_if(records_, [&](const PairRecord& record) {
+    if (!goes(record.pair.a) && !goes(record.pair.b)) return false;
+    drop(record);
+    return true;
+  });
+  insert_colliders(first + count, -count);
+  if (records_.size() != before) index();
 }
 
 void PairStore::index() {

@@ -125,6 +125,15 @@ class PairStore {
   }
   void make_crowd_contact(PairRecord& record);
 
+  // Nothing of what happened to the pair until now counts any more.
+  void forget(PairRecord& record);
+
+  // Bodies come and go. One more body; `count` new colliders take the numbers from `first` on, and
+  // those that had them the next; so many colliders go, with their records.
+  void add_body() { first_.push_back(first_.back()); }
+  void insert_colliders(int first, int count);
+  void erase_colliders(int first, int count);
+
   void hash_into(Hash64& hash) const;
   // The records and what they know; contacts are packed anew in their order.
   template <class Archive>

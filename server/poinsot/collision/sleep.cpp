@@ -28,6 +28,22 @@ Sleep::Sleep(std::size_t bodies)
       group_of_(bodies, -1),
       next_(bodies, -1) {}
 
+void Sleep::fit(std::size_t bodies) {
+  speed_.resize(bodies, -1);
+  wait_.resize(bodies, 0);
+  ask_again_.resize(bodies, 0);
+  group_of_.resize(bodies, -1);
+  next_.resize(bodies, -1);
+  if (!before_.empty()) before_.resize(bodies);
+}
+
+void Sleep::forget(Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  speed_[k] = -1;
+  wait_[k] = 0;
+  ask_again_[k] = 0;
+}
+
 bool Sleep::may_sleep(const CollisionState& state, const Island& island) {
   const World& world = state.world();
   const auto first = static_cast<std::size_t>(island.bodies.front());

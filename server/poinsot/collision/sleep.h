@@ -17,6 +17,10 @@ class Sleep {
  public:
   explicit Sleep(std::size_t bodies);
 
+  void fit(std::size_t bodies);
+  // Body i, which is awake, begins anew.
+  void forget(Eigen::Index i);
+
   // A frame is over.
   void next_frame() { ++frame_; }
   // Whether it is worth while to ask if the island is in equilibrium; now and then only.

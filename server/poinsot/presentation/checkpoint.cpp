@@ -1,8 +1,9 @@
-// PresentationLayer: checkpoints. The bytes are what is held, then the collision layer's state; the
-// scene, the frame and the hash stand beside them.
+// PresentationLayer: checkpoints. The bytes are what is held, what the scene was at the start, then
+// the collision layer's state; the scene, the frame and the hash stand beside them.
 
 #include <utility>
 
+#include "poinsot/base/archive.h"
 #include "poinsot/base/error.h"
 #include "poinsot/presentation/presentation_layer.h"
 
@@ -18,7 +19,8 @@ std::shared_ptr<const Checkpoint> PresentationLayer::make_checkpoint(std::string
   checkpoint->scene = scene_.share();
   ByteWriter out;
   held_.save(out);
-  out(impacts_so_far_, scene_.digest());
+  scene_.save(out);
+  out(impacts_so_far_);
   collision_.save(out);
   checkpoint->state = out.take();
   return checkpoint;
@@ -30,19 +32,22 @@ void PresentationLayer::restore(const Checkpoint& checkpoint) {
   CollisionLayer collision(*checkpoint.scene);
   HeldWrenches held(checkpoint.scene->presentation.frame_rate, held_.revision() + 1);
   held.restore(in, std::as_const(collision).world().size());
-  std::uint64_t impacts = 0, scene_digest = 0;
-  in(impacts, scene_digest);
+  LivingScene scene = scene_;
+  scene.restore(in, checkpoint.scene);
+  std::uint64_t impacts = 0;
+  in(impacts);
   collision.restore(in);
   if (in.left() > 0) ByteReader::fail();
   BodyDigests digests;
-  if (state_hash(checkpoint.frame, collision, held, scene_digest, digests) != checkpoint.state_hash)
+  if (state_hash(checkpoint.frame, collision, held, scene.digest(), digests) !=
+      checkpoint.state_hash)
     throw Error("checkpoint: the state has another hash than when it was saved");
 
   // Nothing below fails.
   times_ = times();
   collision_ = std::move(collision);
   held_ = std::move(held);
-  scene_.restore(checkpoint.scene, scene_digest);
+  scene_ = std::move(scene);
   frame_ = checkpoint.frame;
   impacts_so_far_ = impacts;
   next_epoch();

@@ -38,8 +38,10 @@ struct Held {
 
   template <class Archive>
   void archive(Archive& with) {
-    with(seq, first_frame, last_frame, column, slot, kind, axes, outlives_client, force, torque,
-         p_B, target, stiffness, damping);
+    with(seq, first_frame, last_frame, column, slot);
+    with.choice(kind, WrenchKind::tether);
+    with.choice(axes, Axes::body);
+    with(outlives_client, force, torque, p_B, target, stiffness, damping);
   }
 };
 

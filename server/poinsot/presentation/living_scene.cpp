@@ -6,29 +6,19 @@
 
 #include "poinsot/base/check.h"
 #include "poinsot/base/hash.h"
+#include "poinsot/scene/scene_archive.h"
 
 namespace poinsot {
 namespace {
 
-std::uint64_t digest_of(const BodyDef& body, std::uint64_t before, std::size_t place) {
+std::uint64_t digest_of(BodyDef body, std::uint64_t before, std::size_t place) {
+  body.where.clear();
+  ByteWriter out;
+  out(body);
   Hash64 hash;
   hash.add(before);
   hash.add(std::uint64_t{place});
-  hash.add(std::uint64_t{body.generation} << 2 | (body.is_static ? 2U : 0U) |
-           (body.is_kinematic ? 1U : 0U));
-  for (const char c : body.name) hash.add(static_cast<std::uint64_t>(c));
-  const MassProperties& m = body.mass_properties;
-  hash.add(m.mass);
-  hash.add(std::span(m.center_of_mass.data(), 3));
-  hash.add(std::span(m.J.data(), 9));
-  hash.add(body.material.friction);
-  hash.add(body.material.restitution);
-  hash.add(std::uint64_t{body.shapes.size()});
-  for (const ShapeDef& def : body.shapes) {
-    hash.add(std::uint64_t{def.shape.index()});
-    hash.add(std::span(def.pose.c.data(), 3));
-    hash.add(bounding_radius(def.shape));
-  }
+  for (const std::byte byte : out.bytes()) hash.add(static_cast<std::uint64_t>(byte));
   return hash.value() | 1;
 }
 
@@ -128,18 +118,53 @@ void LivingScene::move_static(std::size_t place, const Pose& pose) {
 }
 
 void LivingScene::start_afresh() {
-  if (scene_ == original_) return;
-  restore(original_, 0);
+  if (scene_ != original_) become(original_, 0);
 }
 
-void LivingScene::restore(std::shared_ptr<const Scene> scene, std::uint64_t digest) {
-  POINSOT_CHECK(scene != nullptr);
+void LivingScene::become(std::shared_ptr<const Scene> scene, std::uint64_t digest) {
   if (scene != scene_) ++revision_;
   scene_ = std::move(scene);
   is_shared_ = true;
   rests_are_fixed_ = false;
   digest_ = digest;
   find_absent();
+}
+
+const std::vector<std::byte>& LivingScene::original_bytes() const {
+  if (!original_bytes_) {
+    ByteWriter out;
+    out(*original_);
+    original_bytes_ = std::make_shared<const std::vector<std::byte>>(out.take());
+  }
+  return *original_bytes_;
+}
+
+void LivingScene::save(ByteWriter& out) const {
+  const bool differs = scene_ != original_;
+  out(digest_, differs);
+  if (differs) out(original_bytes());
+}
+
+void LivingScene::restore(ByteReader& in, std::shared_ptr<const Scene> scene) {
+  POINSOT_CHECK(scene != nullptr);
+  std::uint64_t digest = 0;
+  bool differs = false;
+  in(digest, differs);
+  if (differs) {
+    std::vector<std::byte> bytes;
+    in(bytes);
+    if (bytes != original_bytes()) {
+      Scene original;
+      ByteReader of_original(bytes);
+      of_original(original);
+      original_ = std::make_shared<const Scene>(std::move(original));
+      original_bytes_ = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+    }
+  } else if (original_ != scene) {
+    original_ = scene;
+    original_bytes_ = nullptr;
+  }
+  become(std::move(scene), digest);
 }
 
 }  // namespace poinsot

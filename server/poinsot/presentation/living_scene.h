@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <memory>
 #include <set>
+#include <vector>
 
+#include "poinsot/base/archive.h"
 #include "poinsot/scene/scene.h"
 
 namespace poinsot {
@@ -20,6 +22,7 @@ class LivingScene {
 
   const Scene& now() const { return *scene_; }
   const Scene& original() const { return *original_; }
+  std::shared_ptr<const Scene> share_original() const { return original_; }
   // The scene as it is now, never to be changed.
   std::shared_ptr<const Scene> share() const;
 
@@ -43,13 +46,20 @@ class LivingScene {
 
   // The scene is the original one again.
   void start_afresh();
-  void restore(std::shared_ptr<const Scene> scene, std::uint64_t digest);
+
+  // What a checkpoint keeps beside the scene: also the original, if that is another.
+  void save(ByteWriter& out) const;
+  // Throws Error if the bytes are damaged; this is then to be thrown away.
+  void restore(ByteReader& in, std::shared_ptr<const Scene> scene);
 
  private:
   Scene& change();
   void find_absent();
+  void become(std::shared_ptr<const Scene> scene, std::uint64_t digest);
+  const std::vector<std::byte>& original_bytes() const;
 
   std::shared_ptr<const Scene> original_;
+  mutable std::shared_ptr<const std::vector<std::byte>> original_bytes_;  // once asked for
   std::shared_ptr<const Scene> scene_;
   mutable bool is_shared_ = true;  // also with original_
   bool rests_are_fixed_ = false;   // every spring has a rest length of its own

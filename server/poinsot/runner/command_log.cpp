@@ -105,18 +105,19 @@ bool CommandLogWriter::wait_for_room() {
 
 bool CommandLogWriter::wait_until_open() const {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return state_ != State::opening; });
-  return state_ != State::failed;
+  changed_.wait(lock, [this] { return state_ != State::opening || overflowed_; });
+  return state_ != State::failed && !overflowed_;
 }
 
 CommandLogWriter::State CommandLogWriter::state() const {
   const std::scoped_lock lock(mutex_);
-  return state_;
+  return overflowed_ ? State::failed : state_;
 }
 
 std::string CommandLogWriter::failure() const {
   const std::scoped_lock lock(mutex_);
-  return failure_;
+  // Told at once: the thread may hang in the disk.
+  return overflowed_ ? start_.file.string() + ": the disk is too slow for this run" : failure_;
 }
 
 // On its own thread ------------------------------------------------------------------------------
@@ -164,7 +165,7 @@ std::string CommandLogWriter::write() {
   if (!file.is_open()) return reason(start_.file, errno);
 
   LogLines lines;
-  std::string text = lines.first(start_.world, *start_.checkpoint);
+  std::string text = lines.first(start_);
   if (!write_all(file.get(), text)) return reason(start_.file, errno);
   set_state(State::writing, {});
 
@@ -188,15 +189,10 @@ std::string CommandLogWriter::write() {
     }
     if (!write_all(file.get(), text)) return reason(start_.file, errno);
   }
-  if (overflowed()) return start_.file.string() + ": the disk is too slow for this run";
+  if (state() == State::failed) return failure();
   if (!write_all(file.get(), lines.last(frames)) || !bring_to_disk(file.get()) || !file.close())
     return reason(start_.file, errno);
   return {};
-}
-
-bool CommandLogWriter::overflowed() const {
-  const std::scoped_lock lock(mutex_);
-  return overflowed_;
 }
 
 }  // namespace poinsot

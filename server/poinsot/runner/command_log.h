@@ -2,7 +2,8 @@
 // again and compared bit for bit (replay.h). Text, one JSON object per line:
 //
 //   {"poinsot_log": 1, "build": …, "world": …, "frame": 120, "epoch": 1, "hash": "16 hex digits",
-//    "checkpoint": "base64"}                             the first line: where the log begins
+//    "checkpoint": "base64", "original": "base64"}       the first line: where the log begins, and
+//                                                        the scene that resets go back to
 //   {"before": 121, "epoch": 1, "wrenches": […], "orders": […]}        a turn that had commands
 //   {"checkpoint": 1, "bytes": "base64"}      before the first restore of it: "checkpoint": 1 there
 //   {"frame": 121, "hash": "0123456789abcdef"}                         a frame that was advanced to
@@ -31,6 +32,7 @@ namespace poinsot {
 struct LogStart {
   std::filesystem::path file;
   std::string world;
+  std::shared_ptr<const Scene> original;         // PresentationLayer::original_scene()
   std::shared_ptr<const Checkpoint> checkpoint;  // of the run now, before the first entry
   bool replace = false;                          // a file of this name; else it is refused
 };
@@ -38,8 +40,10 @@ struct LogStart {
 // Writes a log on a thread of its own. The loop only moves entries into a bounded queue; a full
 // disk or a full queue ends the recording with a reason that can be asked for, and the run goes on.
 //
-//   CommandLogWriter log({file, world, layer.make_checkpoint("")});   // opens nothing itself
-//   log.turn({.before = layer.frame() + 1, .epoch = layer.epoch(), …});  // before the turn is done
+//   CommandLogWriter log({file, world, layer.original_scene(), layer.make_checkpoint("")});
+//   TurnRecord turn{.before = layer.frame() + 1, .epoch = layer.epoch(), …};
+//   apply_turn(turn, layer, replies);
+//   log.turn(std::move(turn));  // after what it says is done, before the next frame
 //   layer.advance_frame();
 //   log.frame(layer.frame(), layer.snapshot().state_hash);
 //   log.end();                                                          // or the destructor
@@ -99,7 +103,6 @@ class CommandLogWriter {
   std::string write();  // the reason of a failure, or nothing
   bool take(Queue& queue);
   void set_state(State state, const std::string& failure);
-  bool overflowed() const;
 
   const LogStart start_;
   mutable std::mutex mutex_;

@@ -2,11 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "poinsot/base/archive.h"
 #include "poinsot/runner/base64.h"
 #include "poinsot/runner/build_identity.h"
 #include "poinsot/runner/checkpoint_file.h"
 #include "poinsot/runner/command_json.h"
 #include "poinsot/runner/hash_text.h"
+#include "poinsot/scene/scene_archive.h"
 
 namespace poinsot {
 namespace {
@@ -20,14 +22,21 @@ std::string line(const Json& json) {
 
 }  // namespace
 
-std::string LogLines::first(const std::string& world, const Checkpoint& start) {
-  return line({{"poinsot_log", kLogFormat},
+std::string LogLines::first(const LogStart& start) {
+  const Checkpoint& checkpoint = *start.checkpoint;
+  Json json = {{"poinsot_log", kLogFormat},
                {"build", build_identity()},
-               {"world", world},
-               {"frame", start.frame},
-               {"epoch", start.epoch},
-               {"hash", hash_text(start.state_hash)},
-               {"checkpoint", to_base64(checkpoint_bytes(start))}});
+               {"world", start.world},
+               {"frame", checkpoint.frame},
+               {"epoch", checkpoint.epoch},
+               {"hash", hash_text(checkpoint.state_hash)},
+               {"checkpoint", to_base64(checkpoint_bytes(checkpoint))}};
+  if (start.original != checkpoint.scene) {
+    ByteWriter out;
+    out(*start.original);
+    json["original"] = to_base64(out.bytes());
+  }
+  return line(json);
 }
 
 void LogLines::add(const TurnRecord& turn, std::string& text) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "poinsot/presentation/checkpoint.h"
+#include "poinsot/runner/command_log.h"
 #include "poinsot/runner/turn_record.h"
 
 namespace poinsot {
@@ -17,7 +18,7 @@ inline constexpr int kLogFormat = 1;
 
 class LogLines {
  public:
-  std::string first(const std::string& world, const Checkpoint& start);
+  static std::string first(const LogStart& start);
   void add(const TurnRecord& turn, std::string& text);
   static void add(const FrameRecord& frame, std::string& text);
   static std::string last(std::uint64_t frames);

@@ -1,8 +1,6 @@
 #include "poinsot/runner/replay.h"
 
-#include <algorithm>
 #include <cstdio>
-#include <tuple>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -19,35 +17,23 @@ std::uint32_t later(std::uint32_t epoch, std::uint32_t epochs_later) {
   return epoch == 0 ? 0 : epoch + epochs_later;  // 0: whichever runs
 }
 
-// The same checkpoint for another number of threads, which no bit depends on.
+// The number of threads is in the scene; no bit depends on it.
+std::shared_ptr<const Scene> with_threads(const std::shared_ptr<const Scene>& scene, int threads) {
+  if (threads == 0 || scene->collision.threads == threads) return scene;
+  auto copy = std::make_shared<Scene>(*scene);
+  copy->collision.threads = threads;
+  return copy;
+}
+
 std::shared_ptr<const Checkpoint> with_threads(const std::shared_ptr<const Checkpoint>& checkpoint,
                                                int threads) {
   if (threads == 0 || checkpoint->scene->collision.threads == threads) return checkpoint;
-  auto scene = std::make_shared<Scene>(*checkpoint->scene);
-  scene->collision.threads = threads;
   auto copy = std::make_shared<Checkpoint>(*checkpoint);
-  copy->scene = std::move(scene);
+  copy->scene = with_threads(checkpoint->scene, threads);
   return copy;
 }
 
 }  // namespace
-
-void apply_turn(const TurnRecord& turn, PresentationLayer& layer, std::vector<Reply>& replies) {
-  std::span<const WrenchCommand> left = turn.wrenches;
-  const auto accept = [&](std::size_t count) {
-    layer.accept(left.first(count), replies);
-    left = left.subspan(count);
-  };
-  for (const Order& order : turn.orders) {
-    const auto key = std::tuple(order.control.client, order.control.seq);
-    const auto first_behind = std::ranges::find_if(left, [&](const WrenchCommand& wrench) {
-      return std::tuple(wrench.client, wrench.seq) >= key;
-    });
-    accept(static_cast<std::size_t>(first_behind - left.begin()));
-    replies.push_back(layer.obey(order));
-  }
-  accept(left.size());
-}
 
 std::optional<FrameRecord> LogPlayer::advance() {
   while (std::optional<LogEntry> entry = log_.next()) {
@@ -76,7 +62,7 @@ ReplayResult replay(const std::filesystem::path& file, const ReplayOptions& opti
                     std::stop_token stop) {
   CommandLogReader log(file);
   const auto start = with_threads(log.start(), options.threads);
-  PresentationLayer layer(*start->scene);
+  PresentationLayer layer(*with_threads(log.original(), options.threads));
   layer.restore(*start);
   std::optional<Trajectory> trajectory;
   if (!options.trajectory.empty()) {

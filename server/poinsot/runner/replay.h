@@ -16,10 +16,6 @@
 
 namespace poinsot {
 
-// Does to a layer what was done between two frames: orders and wrenches in the order (client, seq),
-// an order before a wrench of the same key. Appends one reply per command.
-void apply_turn(const TurnRecord& turn, PresentationLayer& layer, std::vector<Reply>& replies);
-
 // Leads a layer through a log.
 class LogPlayer {
  public:

@@ -56,6 +56,8 @@ class Course {
 
   // A driven body's course is integrated by this thread's means from now on.
   void use(SimulationWorker& worker) { preview_.worker = &worker; }
+  // The flight has moved in memory.
+  void use(const Flight& flight) { flight_ = &flight; }
 
   // All but whose it is: attach() says that, to one that was read.
   template <class Archive>

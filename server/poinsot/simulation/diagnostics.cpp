@@ -6,22 +6,26 @@
 
 namespace poinsot {
 
+double kinetic_energy(const World& world, Eigen::Index i) {
+  if (!world.moves(i)) return 0;
+  return 0.5 * world.inv_mass[static_cast<std::size_t>(i)] * momentum(world.y, i).squaredNorm() +
+         0.5 * angular_velocity(world, i).dot(angular_momentum(world.y, i));
+}
+
 double kinetic_energy(const World& world) {
   double sum = 0;
-  for (Eigen::Index i = 0; i < world.size(); ++i) {
-    if (!world.moves(i)) continue;
-    const auto k = static_cast<std::size_t>(i);
-    sum += 0.5 * world.inv_mass[k] * momentum(world.y, i).squaredNorm();
-    sum += 0.5 * angular_velocity(world, i).dot(angular_momentum(world.y, i));
-  }
+  for (Eigen::Index i = 0; i < world.size(); ++i) sum += kinetic_energy(world, i);
   return sum;
+}
+
+double potential_energy(const World& world, Eigen::Index i) {
+  if (!world.moves(i)) return 0;
+  return -world.mass[static_cast<std::size_t>(i)] * world.gravity.dot(position(world.y, i));
 }
 
 double potential_energy(const World& world) {
   double sum = 0;
-  for (Eigen::Index i = 0; i < world.size(); ++i)
-    if (world.moves(i))
-      sum -= world.mass[static_cast<std::size_t>(i)] * world.gravity.dot(position(world.y, i));
+  for (Eigen::Index i = 0; i < world.size(); ++i) sum += potential_energy(world, i);
   return sum + spring_energy(world);
 }
 
@@ -40,6 +44,12 @@ EnergyScale::EnergyScale(const World& world) : potential_(spring_energy(world)) 
     }
   }
   see(kinetic_energy(world));
+}
+
+void EnergyScale::widen(const World& world) {
+  const EnergyScale now(world);
+  potential_ = std::max(potential_, now.potential_);
+  see(now.largest_kinetic_);
 }
 
 }  // namespace poinsot

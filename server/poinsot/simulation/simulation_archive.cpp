@@ -15,7 +15,7 @@ void change_motion(World& world, Eigen::Index i, Motion to) {
   const Motion from = world.motion[k];
   if (from == to) return;
   const bool heavy = world.mass[k] == 0;
-  if (to == Motion::frozen && from != Motion::fixed) {
+  if (to == Motion::frozen && from != Motion::fixed && from != Motion::absent) {
     world.freeze(i);
   } else if (from == Motion::frozen && to == Motion::dynamic && !heavy) {
     world.thaw(i);
@@ -42,10 +42,13 @@ void World::archive(Archive& with) {
   with(time);
   for (Eigen::Index i = 0; i < size(); ++i) {
     Motion to = motion[static_cast<std::size_t>(i)];
-    with.choice(to, Motion::frozen);
+    with.choice(to, Motion::absent);
     if constexpr (Archive::kReads) change_motion(*this, i, to);
   }
   with.raw(y.data(), static_cast<std::size_t>(y.size()) * sizeof(double));
+  if constexpr (Archive::kReads)
+    for (Eigen::Index i = 0; i < size(); ++i)
+      if (motion[static_cast<std::size_t>(i)] == Motion::fixed) move_anchors(*this, i);
   with.some(kinematic, [&](std::size_t k) { return motion[k] == Motion::kinematic; });
   with.some(held, [&](std::size_t k) { return !held[k].is_zero(); });
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "poinsot/base/error.h"
+#include "poinsot/simulation/diagnostics.h"
 
 namespace poinsot {
 namespace {
@@ -68,6 +69,74 @@ SimulationLayer::SimulationLayer(const Scene& scene)
   for (const BodySystem& system : world_.systems) systems_.emplace_back(system.columns.size());
   for (Eigen::Index i = 0; i < world_.size(); ++i) all_.push_back(i);
   own_.emplace_back(world_);
+}
+
+Eigen::Index SimulationLayer::add(const BodyDef& body) {
+  const Eigen::Index i = world_.add(body);
+  const auto k = static_cast<std::size_t>(i);
+  if (k == methods_.size()) {
+    contact_wrenches_.emplace_back();
+    last_good_.conservativeResize(Eigen::NoChange, i + 1);
+    methods_.push_back(Method::none);
+    driven_.push_back(0);
+    memories_.emplace_back();
+    all_.push_back(i);
+    if (flies_free()) {
+      flights_.emplace_back();
+      turning_.emplace_back();
+      turning_known_.push_back(0);
+    }
+  }
+  begin_anew(i);
+  return i;
+}
+
+bool SimulationLayer::remove(Eigen::Index i) {
+  const bool sprung = !world_.systems.empty();
+  if (sprung) drop_springs(i);
+  world_.remove(i);
+  begin_anew(i);
+  return sprung;
+}
+
+void SimulationLayer::drop_springs(Eigen::Index i) {
+  if (in_scene_system(i))
+    for (const Eigen::Index j :
+         world_.systems[static_cast<std::size_t>(world_.system_of[static_cast<std::size_t>(i)])]
+             .columns)
+      memories_[static_cast<std::size_t>(j)] = {};
+  const std::vector<StepMemory> before = std::move(system_memories_);
+  system_memories_.clear();
+  systems_.clear();
+  for (const int s : poinsot::drop_springs(world_, i)) {
+    systems_.emplace_back(world_.systems[systems_.size()].columns.size());
+    system_memories_.push_back(s == kAnother ? StepMemory{} : before[static_cast<std::size_t>(s)]);
+  }
+  own_.front() = SimulationWorker(world_);
+}
+
+void SimulationLayer::set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity) {
+  world_.set_state(i, pose, velocity);
+  begin_anew(i);
+}
+
+// Of what moved the body until now nothing is known any more.
+void SimulationLayer::begin_anew(Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  if (is_sound(world_.y, i)) last_good_.col(i) = world_.y.col(i);
+  methods_[k] = Method::none;
+  memories_[k] = {};
+  if (in_system(i)) system_memory(world_.system_of[k]) = {};
+  driven_[k] = is_pushed(i) ? 1 : 0;
+  contact_wrenches_[k] = Wrench{};
+}
+
+void SimulationLayer::kick(Eigen::Index i, const Wrench& impulse) {
+  const double before = kinetic_energy(world_, i);
+  momentum(world_.y, i) += impulse.force;
+  angular_momentum(world_.y, i) += impulse.torque;
+  methods_[static_cast<std::size_t>(i)] = Method::none;
+  total_.work += kinetic_energy(world_, i) - before;
 }
 
 SimulationWorker::SimulationWorker(const World& world) : lone(1) {
@@ -310,7 +379,7 @@ Course SimulationLayer::course(Eigen::Index i, double from, double to, bool in_c
 
 Course SimulationLayer::kinematic_course(Eigen::Index i, double to) const {
   const World::Kinematic& kinematic = world_.kinematic[static_cast<std::size_t>(i)];
-  return Course::uniform(kinematic.start, kinematic.velocity, 0, to);
+  return Course::uniform(kinematic.start, kinematic.velocity, kinematic.since, to);
 }
 
 Course::Column SimulationLayer::preview(Eigen::Index i, const Course::Preview& course, double t) {

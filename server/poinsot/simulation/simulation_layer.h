@@ -80,6 +80,8 @@ class SimulationLayer {
   // and freezes them there. Callers that changed the state call it before they ask anything.
   void freeze_unsound(std::span<const Eigen::Index> bodies, Tally& tally);
 
+  // The flight that courses of body i look at, wherever it is now.
+  const Flight& flight(Eigen::Index i) const { return flights_[static_cast<std::size_t>(i)]; }
   // The course of a body from its present state, which it has at `from`, on. Valid until its state,
   // its wrenches or `worker` are used for something else; a flight's lasts as long as the flight.
   Course course(Eigen::Index i, double from, double to, bool in_contact, SimulationWorker& worker);
@@ -96,6 +98,14 @@ class SimulationLayer {
   void rest(Eigen::Index i) { methods_[static_cast<std::size_t>(i)] = Method::none; }
   bool flies_free() const { return integration_.kind() == IntegratorKind::exact; }
 
+  // Changes from outside, between frames. What a body did before leaves no trace in its column.
+  Eigen::Index add(const BodyDef& body);
+  // Springs to it go with it: if it says so, workers of others are to be made anew.
+  bool remove(Eigen::Index i);
+  void set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity);
+  // Changes the momenta of a dynamic body by an impulse [N·s, N·m·s] about c, in W; what its
+  // kinetic energy changes by is work.
+  void kick(Eigen::Index i, const Wrench& impulse);
   // All tethers from now on, between frames; those of columns that do not move are ignored. The
   // change of their energy counts as work; what a system knows of its steps is forgotten if its
   // tethers changed in more than their targets. Throws Error if one is not finite or pushes, before
@@ -157,6 +167,8 @@ class SimulationLayer {
     double mismatch = 0;
   };
 
+  void begin_anew(Eigen::Index i);
+  void drop_springs(Eigen::Index i);
   bool is_pushed(Eigen::Index i) const;
   bool in_system(Eigen::Index i) const;
   bool in_scene_system(Eigen::Index i) const;

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "poinsot/base/check.h"
+#include "poinsot/simulation/tethers.h"
 #include "poinsot/simulation/world.h"
 
 namespace poinsot {
@@ -61,24 +62,26 @@ std::vector<WorldSpring> resolve(const Scene& scene, const World& world) {
                     def.rest_length.value_or((at_a - at_b).norm())};
     const bool b_moves = b >= 0 && world.moves(b);
     if (world.moves(a)) {
-      if (b_moves) link.p_b = from_center(b, def.point_b);
+      if (b_moves) {
+        link.p_b = from_center(b, def.point_b);
+      } else if (b >= 0) {
+        link.anchor = b;
+        link.p_anchor = def.point_b;
+      }
       springs.push_back({a, b_moves ? b : -1, link});
     } else if (b_moves) {
       link.p_a = from_center(b, def.point_b);
       link.p_b = at_a;
+      link.anchor = a;
+      link.p_anchor = def.point_a;
       springs.push_back({b, -1, link});
     }
   }
   return springs;
 }
 
-}  // namespace
-
-std::vector<BodySystem> make_systems(const Scene& scene, const World& world) {
+std::vector<BodySystem> join(std::size_t n, const std::vector<WorldSpring>& springs) {
   std::vector<BodySystem> systems;
-  if (scene.springs.empty()) return systems;
-  const std::vector<WorldSpring> springs = resolve(scene, world);
-  const auto n = static_cast<std::size_t>(world.size());
   Joined joined(n);
   std::vector<bool> sprung(n, false);
   for (const WorldSpring& spring : springs) {
@@ -113,6 +116,75 @@ std::vector<BodySystem> make_systems(const Scene& scene, const World& world) {
     ++system.scene_springs;
   }
   return systems;
+}
+
+}  // namespace
+
+std::vector<BodySystem> make_systems(const Scene& scene, const World& world) {
+  if (scene.springs.empty()) return {};
+  return join(static_cast<std::size_t>(world.size()), resolve(scene, world));
+}
+
+namespace {
+
+bool holds(const BodySystem& system, const SpringLink& spring, Eigen::Index i) {
+  return system.columns[static_cast<std::size_t>(spring.a)] == i || spring.anchor == i ||
+         (spring.b >= 0 && system.columns[static_cast<std::size_t>(spring.b)] == i);
+}
+
+// What is left of a system without the springs of body i.
+std::vector<BodySystem> without(const BodySystem& system, std::size_t n, Eigen::Index i) {
+  std::vector<WorldSpring> left;
+  for (const SpringLink& spring : system.springs) {
+    if (holds(system, spring, i)) continue;
+    const auto column_of = [&](int place) {
+      return place < 0 ? Eigen::Index{-1} : system.columns[static_cast<std::size_t>(place)];
+    };
+    left.push_back({column_of(spring.a), column_of(spring.b), spring});
+  }
+  return join(n, left);
+}
+
+}  // namespace
+
+std::vector<int> drop_springs(World& world, Eigen::Index i) {
+  std::vector<Tether> tethers = world.tethers;
+  std::erase_if(tethers, [i](const Tether& tether) { return tether.column == i; });
+  std::vector<Eigen::Index> relaid;
+  set_tethers(world, {}, relaid);
+
+  struct Part {
+    BodySystem system;
+    int came_from;
+  };
+  std::vector<Part> parts;
+  for (std::size_t s = 0; s < world.systems.size(); ++s) {
+    BodySystem& system = world.systems[s];
+    const bool stays = std::ranges::none_of(
+        system.springs, [&](const SpringLink& spring) { return holds(system, spring, i); });
+    if (stays) {
+      parts.push_back({std::move(system), static_cast<int>(s)});
+    } else {
+      for (BodySystem& part : without(system, world.ids.size(), i))
+        parts.push_back({std::move(part), kAnother});
+    }
+  }
+  std::ranges::sort(parts, {}, [](const Part& part) { return part.system.columns[0]; });
+  world.systems.clear();
+  std::vector<int> came_from;
+  for (Part& part : parts) {
+    world.systems.push_back(std::move(part.system));
+    came_from.push_back(part.came_from);
+  }
+  world.number_systems();
+  set_tethers(world, tethers, relaid);
+  return came_from;
+}
+
+void move_anchors(World& world, Eigen::Index i) {
+  for (BodySystem& system : world.systems)
+    for (SpringLink& spring : system.springs)
+      if (spring.anchor == i) spring.p_b = body_pose(world, i) * spring.p_anchor;
 }
 
 SpringForce spring_force(const SpringLink& spring, const Vec3& x_a, const Vec3& x_b,

@@ -21,6 +21,10 @@ struct SpringLink {
   double damping;    // [N·s/m]
   double rest;       // [m]
   bool isotropic = false;
+  // The end in W is on a body that does not move: its column (none: kWorld), and the point [m] in
+  // its B, from its origin.
+  Eigen::Index anchor = kWorld;
+  Vec3 p_anchor = Vec3::Zero();
 
   static constexpr int kWorld = -1;
   // Its force is linear in where its points are and how they move.
@@ -37,6 +41,14 @@ struct BodySystem {
 // The systems of more than a lone body without springs, each in column order; empty if the scene
 // has no springs. Springs between two bodies that do not move are left out.
 std::vector<BodySystem> make_systems(const Scene& scene, const World& world);
+
+// Takes all springs and tethers off body i. What they held together falls apart. Returns for each
+// of the scene's systems that are left which one it was; kAnother: a part of one.
+std::vector<int> drop_springs(World& world, Eigen::Index i);
+inline constexpr int kAnother = -1;
+
+// Springs to body i, which does not move, end where it is now.
+void move_anchors(World& world, Eigen::Index i);
 
 // The force of a spring on its point of a, in W [N], from the points and their velocities.
 struct SpringForce {

@@ -7,49 +7,24 @@ namespace poinsot {
 World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
   const std::size_t n = scene.bodies.size();
   y = StateArray::Zero(13, static_cast<Eigen::Index>(n));
-  held.resize(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const BodyDef& body = scene.bodies[k];
-    const MassProperties& m = body.mass_properties;
-    const auto i = static_cast<Eigen::Index>(k);
-
-    ids.push_back({static_cast<std::uint32_t>(k), 1});
-    names.push_back(body.name);
-    center_of_mass.push_back(m.center_of_mass);
-    const bool heavy = body.is_static || body.is_kinematic;  // nothing moves it
-    motion.push_back(body.is_static      ? Motion::fixed
-                     : body.is_kinematic ? Motion::kinematic
-                                         : Motion::dynamic);
-    mass.push_back(heavy ? 0.0 : m.mass);
-    inv_mass.push_back(heavy ? 0.0 : 1.0 / m.mass);
-    J_B.push_back(heavy ? Mat3(Mat3::Zero()) : m.J);
-    principal_axes.push_back(heavy ? PrincipalAxes{} : poinsot::principal_axes(m.J));
-    inv_J_B.push_back(heavy ? Mat3(Mat3::Zero()) : inverse_inertia(principal_axes[k]));
-
-    position(y, i) = body.pose * m.center_of_mass;
-    orientation(y, i) = body.pose.q;
-    momentum(y, i) = mass[k] * body.linear_velocity;
-    const Mat3 R = body.pose.q.toRotationMatrix();
-    angular_momentum(y, i) = R * (J_B[k] * (R.transpose() * body.angular_velocity));
+  for (const BodyDef& body : scene.bodies) {
+    append();
+    fill(static_cast<Eigen::Index>(ids.size() - 1), body);
   }
-  const auto is_kinematic = [](const BodyDef& body) { return body.is_kinematic; };
-  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), is_kinematic))
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      const BodyDef& body = scene.bodies[k];
-      kinematic.push_back(
-          {{body.linear_velocity, body.angular_velocity}, {position(y, i), orientation(y, i)}});
-    }
-  const auto dragged = [](const BodyDef& body) {
-    return body.drag.linear > 0 || body.drag.quadratic > 0 || body.drag.angular > 0;
-  };
-  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), dragged))
-    for (const BodyDef& body : scene.bodies) drag.push_back(body.drag);
+  for (std::size_t k = 0; k < n; ++k)
+    if (!names[k].empty()) columns_by_name.push_back(static_cast<Eigen::Index>(k));
+  std::ranges::stable_sort(columns_by_name, {}, [this](Eigen::Index i) { return name_of(i); });
   systems = make_systems(scene, *this);
+  number_systems();
+}
+
+void World::number_systems() {
   scene_systems = systems.size();
+  system_of.clear();
+  place_of.clear();
   if (systems.empty()) return;
-  system_of.assign(n, kLone);
-  place_of.assign(n, 0);
+  system_of.assign(ids.size(), kLone);
+  place_of.assign(ids.size(), 0);
   for (std::size_t s = 0; s < systems.size(); ++s)
     for (std::size_t j = 0; j < systems[s].columns.size(); ++j) {
       const auto k = static_cast<std::size_t>(systems[s].columns[j]);
@@ -58,16 +33,96 @@ World::World(const Scene& scene) : gravity(scene.simulation.gravity) {
     }
 }
 
+// An absent column at the end of everything but y.
+void World::append() {
+  ids.emplace_back();
+  names.emplace_back();
+  motion.push_back(Motion::absent);
+  mass.push_back(0);
+  inv_mass.push_back(0);
+  center_of_mass.emplace_back(Vec3::Zero());
+  J_B.emplace_back(Mat3::Zero());
+  inv_J_B.emplace_back(Mat3::Zero());
+  principal_axes.emplace_back();
+  held.emplace_back();
+  if (!drag.empty()) drag.emplace_back();
+  if (!kinematic.empty()) kinematic.emplace_back();
+  if (systems.empty()) return;
+  system_of.push_back(kLone);
+  place_of.push_back(0);
+}
+
+void World::fill(Eigen::Index i, const BodyDef& body) {
+  const auto k = static_cast<std::size_t>(i);
+  const MassProperties& m = body.mass_properties;
+  const bool heavy = body.absent || body.is_static || body.is_kinematic;  // nothing moves it
+  ids[k] = {static_cast<std::uint32_t>(k), body.generation};
+  names[k] = body.absent ? std::string() : body.name;
+  motion[k] = body.absent         ? Motion::absent
+              : body.is_static    ? Motion::fixed
+              : body.is_kinematic ? Motion::kinematic
+                                  : Motion::dynamic;
+  center_of_mass[k] = m.center_of_mass;
+  mass[k] = heavy ? 0.0 : m.mass;
+  inv_mass[k] = heavy ? 0.0 : 1.0 / m.mass;
+  J_B[k] = heavy ? Mat3(Mat3::Zero()) : m.J;
+  principal_axes[k] = heavy ? PrincipalAxes{} : poinsot::principal_axes(m.J);
+  inv_J_B[k] = heavy ? Mat3(Mat3::Zero()) : inverse_inertia(principal_axes[k]);
+  held[k] = {};
+  const bool dragged = body.drag.linear > 0 || body.drag.quadratic > 0 || body.drag.angular > 0;
+  if (dragged) drag.resize(ids.size());
+  if (!drag.empty()) drag[k] = body.drag;
+  if (body.is_kinematic) kinematic.resize(ids.size());
+  if (!kinematic.empty()) kinematic[k] = {};
+  set_state(i, body.pose, {body.linear_velocity, body.angular_velocity});
+}
+
+Eigen::Index World::add(const BodyDef& body) {
+  const auto place = std::ranges::find(motion, Motion::absent);
+  const auto i = static_cast<Eigen::Index>(place - motion.begin());
+  if (place == motion.end()) {
+    append();
+    y.conservativeResize(Eigen::NoChange, i + 1);
+    y.col(i).setZero();
+  }
+  fill(i, body);
+  const auto after = std::ranges::upper_bound(columns_by_name, std::string_view(body.name), {},
+                                              [this](Eigen::Index j) { return name_of(j); });
+  columns_by_name.insert(after, i);
+  return i;
+}
+
+void World::remove(Eigen::Index i) {
+  std::erase(columns_by_name, i);
+  BodyDef none;
+  none.absent = true;
+  none.generation = ids[static_cast<std::size_t>(i)].generation;
+  fill(i, none);
+}
+
+void World::set_state(Eigen::Index i, const Pose& pose, const Velocity& v) {
+  const auto k = static_cast<std::size_t>(i);
+  if (motion[k] == Motion::frozen) thaw(i);
+  position(y, i) = pose * center_of_mass[k];
+  orientation(y, i) = pose.q;
+  momentum(y, i) = mass[k] * v.linear;
+  const Mat3 R = pose.q.toRotationMatrix();
+  angular_momentum(y, i) = R * (J_B[k] * (R.transpose() * v.angular));
+  if (is_kinematic(i)) kinematic[k] = {v, {position(y, i), orientation(y, i)}, time};
+  if (motion[k] == Motion::fixed) move_anchors(*this, i);
+}
+
 std::optional<Eigen::Index> World::find(BodyId id) const {
   const auto i = static_cast<std::size_t>(id.slot);
-  if (i >= ids.size() || ids[i] != id) return std::nullopt;
+  if (i >= ids.size() || ids[i] != id || motion[i] == Motion::absent) return std::nullopt;
   return static_cast<Eigen::Index>(i);
 }
 
 std::optional<Eigen::Index> World::find(std::string_view name) const {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<Eigen::Index>(found - names.begin());
+  const auto found = std::ranges::lower_bound(columns_by_name, name, {},
+                                              [this](Eigen::Index i) { return name_of(i); });
+  if (found == columns_by_name.end() || name_of(*found) != name) return std::nullopt;
+  return *found;
 }
 
 void World::freeze(Eigen::Index i) {

@@ -1,6 +1,7 @@
 // The bodies: their constant properties, their state, and what acts on them. Everything per body is
 // an array in the same order, the order of the scene file; static bodies are columns like the
-// others, with zero inverse mass.
+// others, with zero inverse mass. Bodies come and go: the column of one that is gone is absent,
+// like a static body without a shape or a name, until the next that comes takes it.
 
 #pragma once
 
@@ -35,6 +36,7 @@ enum class Motion : std::uint8_t {
   fixed,      // static in the scene
   kinematic,  // moves evenly, whatever it meets
   frozen,     // dynamic, but its state became non-finite: held at its last good pose
+  absent,     // a column that no body has
 };
 
 struct World {
@@ -49,9 +51,24 @@ struct World {
     return motion[static_cast<std::size_t>(i)] == Motion::kinematic;
   }
 
+  bool is_absent(Eigen::Index i) const {
+    return motion[static_cast<std::size_t>(i)] == Motion::absent;
+  }
+
   // Column of a body; nothing if there is no such body.
   std::optional<Eigen::Index> find(BodyId id) const;
   std::optional<Eigen::Index> find(std::string_view name) const;
+
+  // Adds a body in the lowest absent column, or in a new one: which.
+  Eigen::Index add(const BodyDef& body);
+  // Makes a column absent; its id stays, with the generation that it had.
+  void remove(Eigen::Index i);
+  // From now on body i is there: pose of B in W, velocity of the centre of mass; of a body that
+  // does not move the pose alone. A frozen one moves again.
+  void set_state(Eigen::Index i, const Pose& pose, const Velocity& v);
+
+  // Sets who is in which of the systems, all of which are the scene's.
+  void number_systems();
 
   // Sets a body at rest for good at its present pose, and makes it a moving one again.
   void freeze(Eigen::Index i);
@@ -67,7 +84,8 @@ struct World {
 
   // Constant, unless a body is frozen.
   std::vector<BodyId> ids;
-  std::vector<std::string> names;
+  std::vector<std::string> names;             // empty: absent
+  std::vector<Eigen::Index> columns_by_name;  // of those with a name, ascending by it
   std::vector<Motion> motion;
   std::vector<double> mass;          // [kg] 0 for static bodies
   std::vector<double> inv_mass;      // [1/kg] 0 for bodies that do not move
@@ -76,7 +94,7 @@ struct World {
   std::vector<Mat3> inv_J_B;         // [1/(kg·m²)] 0 for bodies that do not move
 
   std::vector<PrincipalAxes> principal_axes;
-  std::vector<DragDef> drag;        // empty: no body has any
+  std::vector<DragDef> drag;        // empty: no body had any yet
   std::vector<BodySystem> systems;  // bodies with springs or tethers; empty: there are none
   std::vector<int> system_of;       // index into systems, or kLone; empty as systems
   std::vector<int> place_of;        // index into that system's columns; empty as systems
@@ -90,20 +108,26 @@ struct World {
   };
   std::vector<TetherPlace> tether_places;  // as tethers
 
-  // Per column; empty: the scene has no kinematic bodies.
+  // Per column; empty: there was no kinematic body yet.
   struct Kinematic {
     Velocity velocity;
-    Pose start;  // of the centre of mass at time 0
+    Pose start;        // of the centre of mass …
+    double since = 0;  // [s] … at this time
 
     template <class Archive>
     void archive(Archive& with) {
-      with(velocity, start);
+      with(velocity, start, since);
     }
   };
   std::vector<Kinematic> kinematic;
 
   // Inputs of the frame.
   std::vector<HeldWrench> held;
+
+ private:
+  void append();
+  void fill(Eigen::Index i, const BodyDef& body);
+  std::string_view name_of(Eigen::Index i) const { return names[static_cast<std::size_t>(i)]; }
 };
 
 // Derived quantities of one body.

@@ -90,6 +90,50 @@ INSTANTIATE_TEST_SUITE_P(
                c.duration_ns = kMaxDurationNs + 1;
              },
              "at most 1000000000000000000"},
+        Case{"UnknownKind", [](WrenchCommand& c) { c.kind = static_cast<WrenchKind>(3); },
+             "kind is 3: the largest known value is 2"},
+        Case{"NaNImpulse",
+             [](WrenchCommand& c) {
+               c.kind = WrenchKind::impulse;
+               c.force.x() = kNaN;
+             },
+             "force is (nan, 2, 3) N·s"},
+        Case{"ImpulseThatLasts",
+             [](WrenchCommand& c) {
+               c.kind = WrenchKind::impulse;
+               c.hold = Hold::until_cleared;
+             },
+             "an impulse acts at the start of one frame"},
+        Case{"TetherToNowhere",
+             [](WrenchCommand& c) {
+               c.kind = WrenchKind::tether;
+               c.target.y() = kInf;
+             },
+             "target is (0, inf, 0) m"},
+        Case{"TetherThatPushes",
+             [](WrenchCommand& c) {
+               c.kind = WrenchKind::tether;
+               c.stiffness = -1;
+             },
+             "stiffness is -1 N/m: it must be 0 to 1e+12"},
+        Case{"TetherOfNoStiffness",
+             [](WrenchCommand& c) {
+               c.kind = WrenchKind::tether;
+               c.stiffness = kNaN;
+             },
+             "stiffness is nan N/m"},
+        Case{"TetherThatDrives",
+             [](WrenchCommand& c) {
+               c.kind = WrenchKind::tether;
+               c.damping = -1e-300;
+             },
+             "damping is -1e-300"},
+        Case{"TetherTooStiff",
+             [](WrenchCommand& c) {
+               c.kind = WrenchKind::tether;
+               c.damping = 2e12;
+             },
+             "damping is 2e+12"},
         Case{"FarStart", [](WrenchCommand& c) { c.start_frame = kForever; },
              "start_frame is 18446744073709551615"}),
     [](const auto& row) { return row.param.name; });
@@ -99,9 +143,23 @@ TEST(CommandCheck, IgnoresWhatTheCommandDoesNotUse) {
   command.point = Vec3(kNaN, 0, 0);  // acts at the centre of mass
   command.duration_ns = -1;          // one frame
   EXPECT_FALSE(check_values(command));
-  command.hold = Hold::clear;
-  command.force.x() = kNaN;
+  command.kind = WrenchKind::tether;
+  command.force.x() = kNaN;  // a tether's force follows from its target
   EXPECT_FALSE(check_values(command));
+  command.hold = Hold::clear;
+  command.stiffness = kNaN;
+  EXPECT_FALSE(check_values(command));
+  command.kind = WrenchKind::impulse;
+  EXPECT_FALSE(check_values(command));
+}
+
+TEST(CommandCheck, AnOrientationMayBeRoundedToFloat) {
+  RunControl control;
+  control.sets_orientation = true;
+  control.orientation = Quat(0.5f, 0.5f, 0.70710677f, 0.0f);
+  EXPECT_FALSE(check_state(control));
+  control.orientation.x() += 1e-5;
+  EXPECT_TRUE(check_state(control));
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ TEST(Base64, EveryByteComesBack) {
 }
 
 TEST(Base64, RefusesWhatItDoesNotMake) {
-  for (const char* text : {"Z", "Zg", "Zg=", "Zh==", "Zm9=", "=Zg=", "Zg==Zg==", "Zm 9", "====", "Zm9v\n"})
+  for (const char* text :
+       {"Z", "Zg", "Zg=", "Zh==", "Zm9=", "=Zg=", "Zg==Zg==", "Zm 9", "====", "Zm9v\n"})
     EXPECT_THROW(from_base64(text), Error) << text;
 }
 

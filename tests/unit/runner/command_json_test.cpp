@@ -67,8 +67,8 @@ TEST(CommandJson, KnowsEveryMember) {
                a19] = full_wrench();
   static_cast<void>(a1), static_cast<void>(a19);
   EXPECT_EQ(to_json(full_wrench()).size(), 19u);
-  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17, b18,
-               b19, b20, b21] = full_control();
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17, b18, b19,
+               b20, b21] = full_control();
   static_cast<void>(b1), static_cast<void>(b21);
   EXPECT_EQ(to_json(full_control()).size(), 21u);
 }
