@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "poinsot/base/error.h"
+#include "poinsot/program/documentation.h"
 #include "poinsot/program/exit_code.h"
 #include "poinsot/program/log.h"
 #include "poinsot/program/options.h"
@@ -36,8 +37,6 @@ struct Options {
   bool offline = false;
   bool supervise = false;
   bool take_over = false;
-  std::string partition;
-  std::string discovery_server;
   std::string data;
   std::string restore;
   std::chrono::nanoseconds autosave{};
@@ -64,10 +63,6 @@ CLI::App* add_run(CLI::App& app, Options& o) {
   add_bus_options(*run, o.bus);
   run->add_option("--world", o.world, "Name on the bus (default: the scene's)");
   run->add_flag("--take-over", o.take_over, "Serve the world though another daemon does");
-  run->add_option("--partition", o.partition, "DDS partition: only who names it as well is met");
-  run->add_option("--discovery-server", o.discovery_server,
-                  "Discovery server that makes daemon and clients known to each other")
-      ->type_name("HOST:PORT");
   auto* fast =
       run->add_flag("--fast", o.fast, "Frames as fast as they can be advanced, not in real time");
   run->add_option("--scale", o.scale, "Simulated seconds per second; 0: as fast as it can")
@@ -181,8 +176,8 @@ void run(const Options& o, StopSignals& signals) {
 #ifdef POINSOT_BUS
   const DaemonOptions options{.domain = o.bus.domain,
                               .lan = o.bus.lan,
-                              .partition = o.partition,
-                              .discovery_server = o.discovery_server,
+                              .partition = o.bus.partition,
+                              .discovery_server = o.bus.discovery_server,
                               .world = o.world,
                               .take_over = o.take_over,
                               .scale = o.fast ? 0 : o.scale,
@@ -243,7 +238,12 @@ int main_of(int argc, const char* const* argv) {
   const CLI::App* study_command = add_study(app, options);
   const CLI::App* replay_command = add_replay(app, options);
   add_check(app, options);
+  const DocumentationVerbs documentation(app, "poinsot(1)");
   if (const auto code = parse_command_line(app, argc, argv, std::cout, std::cerr)) return *code;
+  if (const auto text = documentation.text()) {
+    std::cout << *text;
+    return to_int(ExitCode::ok);
+  }
   try {
 #ifdef POINSOT_BUS
     if (run_command->parsed() && options.supervise)

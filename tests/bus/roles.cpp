@@ -77,6 +77,7 @@ int serve(const Role& role) {
   RunReport status = sample::report();
   status.session = session;
   status.scene_bodies = 1;
+  status.scene_revision = 1;
   report.write(status);
   PoseSnapshot frame = sample::poses(static_cast<std::uint64_t>(role.count), 1);
   frame.session = session;

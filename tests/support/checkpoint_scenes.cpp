@@ -139,6 +139,16 @@ void push(CollisionLayer& layer, int n) {
   layer.world().held[static_cast<std::size_t>(1 + n / 20 % 4)] = held;
 }
 
+// A client drags two boxes about, one of a chain and one alone, lets go, and takes them again.
+void drag(CollisionLayer& layer, int n) {
+  if (n % 5 != 0) return;
+  const Vec3 target(0.05 * n, 0.5, 2 + 0.02 * n);
+  std::vector<Tether> tethers;
+  if (n % 40 < 20) tethers.push_back({2, Vec3(0.1, 0, 0), target, 200, 20});
+  if (n % 30 < 20) tethers.push_back({7, Vec3(0, 0.1, 0), target, 500, 5});
+  layer.set_tethers(tethers);
+}
+
 // One body's state becomes nothing: it is frozen.
 void break_one(CollisionLayer& layer, int n) {
   if (n != 30) return;
@@ -180,6 +190,9 @@ std::vector<CheckpointScene> checkpoint_scenes() {
       {"ContinuousHeap", heap_with(Search::continuous), 50, 40, {}},
       {"UnsearchedHeap", heap_with(Search::none), 80, 50, {}},
       {"PushedHeap", heap_by(Solver::automatic), 90, 50, push},
+      {"DraggedSprings", springs(50, 0.5, Kind::exact), 80, 60, drag},
+      {"DraggedColumns", columns(Profile::accurate), 100, 50, drag},
+      {"DraggedFastColumns", columns(Profile::fast), 100, 50, drag},
       {"BrokenHeap", heap_by(Solver::automatic), 60, 40, break_one},
       {"Columns", columns(Profile::accurate), 150, 60, push},
       {"FastColumns", columns(Profile::fast), 200, 100, push},

@@ -143,14 +143,16 @@ void FrameMotion::archive(Archive& with) {
     with(number);
     if (number != own) throw Error("checkpoint: it is of another scene");
   };
-  for (const std::size_t n : {world.ids.size(), state_.colliders.size(), world.systems.size()})
+  for (const std::size_t n : {world.ids.size(), state_.colliders.size(), world.scene_systems})
     agree(n);
   for (const BodyId id : world.ids) agree(id.generation);
   if (shapes_changed_) fit_to_shapes();
   with(state_, broad_phase_);
-  if constexpr (Archive::kReads)
+  if constexpr (Archive::kReads) {
     for (std::size_t c = 0; c < state_.bound.size(); ++c)
       broad_phase_.set(static_cast<int>(c), state_.bound[c]);
+    for (IslandMotion& motion : motions_) motion.worker().prepare(world);  // of tethers
+  }
   sleep_.archive(with, state_);
   with(crowd_);
   with.fixed(strain_);

@@ -1,6 +1,9 @@
 #include "poinsot/presentation/living_scene.h"
 
+#include <algorithm>
 #include <map>
+#include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -38,6 +41,14 @@ void fix_rest_lengths(Scene& scene) {
       const Vec3 at_b = def.b.empty() ? def.point_b : in_W(def.b, def.point_b);
       def.rest_length = (in_W(def.a, def.point_a) - at_b).norm();
     }
+}
+
+// Bytes that an archive takes as one piece.
+std::string as_text(const std::vector<std::byte>& bytes) {
+  std::string text(bytes.size(), '\0');
+  std::transform(bytes.begin(), bytes.end(), text.begin(),
+                 [](std::byte byte) { return static_cast<char>(byte); });
+  return text;
 }
 
 }  // namespace
@@ -142,7 +153,7 @@ const std::vector<std::byte>& LivingScene::original_bytes() const {
 void LivingScene::save(ByteWriter& out) const {
   const bool differs = scene_ != original_;
   out(digest_, differs);
-  if (differs) out(original_bytes());
+  if (differs) out(as_text(original_bytes()));
 }
 
 void LivingScene::restore(ByteReader& in, std::shared_ptr<const Scene> scene) {
@@ -151,8 +162,10 @@ void LivingScene::restore(ByteReader& in, std::shared_ptr<const Scene> scene) {
   bool differs = false;
   in(digest, differs);
   if (differs) {
-    std::vector<std::byte> bytes;
-    in(bytes);
+    std::string text;
+    in(text);
+    const auto view = std::as_bytes(std::span(text));
+    std::vector<std::byte> bytes(view.begin(), view.end());
     if (bytes != original_bytes()) {
       Scene original;
       ByteReader of_original(bytes);

@@ -119,11 +119,15 @@ void FrameLoop::advance(std::int64_t began) {
 }
 
 void FrameLoop::hand_over() {
+  publish();
+  if (options_.each_frame) options_.each_frame(layer_);
+}
+
+void FrameLoop::publish() {
   outbox_.push(scene_changes_.since_last(layer_));
   outbox_.push(layer_.impacts());
   outbox_.push(layer_.snapshot());
   offer();
-  if (options_.each_frame) options_.each_frame(layer_);
 }
 
 // What is made only while somebody wants it.
@@ -162,6 +166,7 @@ void FrameLoop::obey_inbox() {
   }
   accept(left);
   recording_.end_turn();
+  if (idle()) offer();  // what is held may be another list
 }
 
 // Sorts the batch; what has been answered before is answered again and goes no further, nor does

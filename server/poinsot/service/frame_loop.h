@@ -52,7 +52,6 @@ struct RunStore {
 };
 
 struct FrameLoopOptions {
-  std::uint64_t session = 0;     // stamped on snapshots and reports
   double scale = 1;              // simulated / wall time; 0: as fast as it can
   bool paused = false;           // at the start
   std::uint64_t frames = 0;      // end after so many; 0: when stopped
@@ -91,6 +90,7 @@ class FrameLoop {
   bool await_inputs(const std::stop_token& stop);
   void advance(std::int64_t began);
   void hand_over();
+  void publish();
   void offer();
   void begin_pace();
   void obey_inbox();

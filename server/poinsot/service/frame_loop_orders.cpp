@@ -199,11 +199,12 @@ void FrameLoop::obey_layer(const Order& order) {
   const Reply reply = layer_.obey(order);
   recording_.note(order);
   const bool ok = reply.code == ResultCode::ok;
-  if (ok && control.action == ControlAction::save && control.on_disk)
-    return save_to_disk(control, reply);
+  const bool saves = control.action == ControlAction::save;
+  if (ok && saves && control.on_disk) return save_to_disk(control, reply);
   if (ok && (control.action == ControlAction::reset || control.action == ControlAction::restore))
     begin_epoch(control.action);
-  if (ok && control.action != ControlAction::save) hand_over();
+  else if (ok && !saves)
+    publish();
   report();
   send(reply);
 }
@@ -220,6 +221,7 @@ void FrameLoop::obey_restore(const Order& order) {
 void FrameLoop::begin_epoch(ControlAction action) {
   epoch_ = layer_.epoch();
   answer_inputs(ResultCode::operation_failed, "ended early by " + name_of(action));
+  hand_over();
 }
 
 }  // namespace poinsot

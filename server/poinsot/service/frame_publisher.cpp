@@ -59,7 +59,7 @@ void FramePublisher::send(bool quiet) {
     send_scene();
     send_impacts();
     send_contacts();
-    send_held();
+    send_held(quiet);
     send_poses(quiet);
     if (has_report) write_report();
     // Last: who reads a reply finds the frame and the report that it speaks of.
@@ -100,14 +100,13 @@ void FramePublisher::send_poses(bool quiet) {
   of_poses_.look(poses_topic_.readers());
   streams_.look();
   outbox_.set_poses_wanted(of_poses_.readers > 0 || streams_.any());
-  for (; (of_poses_.readers > 0 || streams_.any()) && outbox_.take(snapshot_);
-       of_poses_.joined = false) {
+  while ((of_poses_.readers > 0 || streams_.any()) && outbox_.take(snapshot_)) {
     if (of_poses_.readers > 0) write_poses();
     streams_.send(snapshot_);
   }
   // Again, if nothing newer comes soon; while frames come, other readers would get one twice.
   if (!quiet || snapshot_.epoch == 0) return;
-  if (of_poses_.readers > 0 && std::exchange(of_poses_.joined, false)) write_poses();
+  if (of_poses_.is_new()) write_poses();
   streams_.send(snapshot_);
 }
 
@@ -133,11 +132,11 @@ void FramePublisher::send_contacts() {
   write(contacts_topic_, contacts_);
 }
 
-void FramePublisher::send_held() {
+void FramePublisher::send_held(bool quiet) {
   of_held_.look(held_topic_.readers());
   outbox_.set_held_wanted(of_held_.readers > 0);
   const bool is_new = outbox_.take(held_);
-  const bool again = of_held_.joined && held_.epoch != 0;
+  const bool again = (of_held_.joined || (quiet && of_held_.is_new())) && held_.epoch != 0;
   if (of_held_.readers == 0 || !(is_new || again)) return;
   of_held_.joined = false;
   held_.session = session_;

@@ -36,7 +36,8 @@ bool same_column(const StateArray& a, const StateArray& b, Eigen::Index i) {
 
 }  // namespace
 
-// Masses, inertias, springs and drag follow from the scene.
+// Masses, inertias, springs and drag follow from the scene. A body that was frozen may still have
+// its tethers.
 template <class Archive>
 void World::archive(Archive& with) {
   with(time);
@@ -49,14 +50,25 @@ void World::archive(Archive& with) {
   if constexpr (Archive::kReads)
     for (Eigen::Index i = 0; i < size(); ++i)
       if (motion[static_cast<std::size_t>(i)] == Motion::fixed) move_anchors(*this, i);
-  with.some(kinematic, [&](std::size_t k) { return motion[k] == Motion::kinematic; });
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    if (motion[k] == Motion::kinematic) with(kinematic[k]);
   with.some(held, [&](std::size_t k) { return !held[k].is_zero(); });
+  with(tethers);
+  if constexpr (Archive::kReads) {
+    const bool sound = std::all_of(tethers.begin(), tethers.end(), [&](const Tether& tether) {
+      return tether.column >= 0 && tether.column < size() &&
+             mass[static_cast<std::size_t>(tether.column)] > 0;
+    });
+    if (!sound) with.fail();
+    link_tethers(*this);
+  }
 }
 
 // Which bodies are driven is asked for at the start of every frame; workspaces are scratch.
 template <class Archive>
 void SimulationLayer::archive(Archive& with) {
   with(world_);
+  if constexpr (Archive::kReads) own_.front().prepare(world_);
   with.some(contact_wrenches_, [&](std::size_t k) { return !is_zero(contact_wrenches_[k]); });
   for (Eigen::Index i = 0; i < world_.size(); ++i) {
     bool same = same_column(world_.y, last_good_, i);

@@ -68,6 +68,11 @@ struct Tether {
   Vec3 target;       // [m] in W
   double stiffness;  // [N/m]
   double damping;    // [N·s/m]
+
+  template <class Archive>
+  void archive(Archive& with) {
+    with(column, p_B, target, stiffness, damping);
+  }
 };
 
 // What drag exerts at velocity v [m/s] in W [N].

@@ -143,9 +143,13 @@ TetherChange set_tethers(World& world, std::span<const Tether> tethers,
                [&](const Tether& tether) { return acts(world, tether); });
   find_relaid(world.tethers, acting, relaid);
   world.tethers = std::move(acting);
+  link_tethers(world);
+  return TetherChange::joined;
+}
+
+void link_tethers(World& world) {
   clear_links(world);
   link_all(world);
-  return TetherChange::joined;
 }
 
 double tether_energy(const World& world) {

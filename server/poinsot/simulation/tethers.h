@@ -23,6 +23,9 @@ enum class TetherChange {
 TetherChange set_tethers(World& world, std::span<const Tether> tethers,
                          std::vector<Eigen::Index>& relaid);
 
+// Makes the springs and systems of world.tethers anew: they were read from a checkpoint.
+void link_tethers(World& world);
+
 // Elastic energy of the tethers [J], a part of spring_energy().
 double tether_energy(const World& world);
 

@@ -195,7 +195,7 @@ TEST(Replay, BeginsInTheMiddleOfARun) {
 }
 
 TEST(Replay, OfACutLogGoesAsFarAsItDoes) {
-  const auto file = test::temp_path("cut.log");
+  const auto file = test::temp_path("cut_replay.log");
   RecordedRun run(boxes());
   run.record(file);
   run.frames(30);
