@@ -225,7 +225,7 @@ TEST_F(DaemonTest, StopsWithinTwoSecondsAndTheClientMeetsTheNextOne) {
 
 TEST_F(DaemonTest, EndsByItselfWithTheHashOfARunWithoutABus) {
   const Scene scene = two_boxes("frames");
-  start(scene, {.fast = true, .paused = true, .frames = 100});
+  start(scene, {.scale = 0, .paused = true, .frames = 100});
   client_->control({.action = ControlAction::resume}, kPatience);
   EXPECT_TRUE(eventually([&] { return ended_.load(); }));
   const RunSummary summary = daemon_->stop();
