@@ -152,7 +152,8 @@ void drag(CollisionLayer& layer, int n) {
 // Bodies are thrown, and put elsewhere.
 void throw_about(CollisionLayer& layer, int n) {
   if (n % 15 == 0) layer.kick(3 + n / 15 % 8, {Vec3(20, -10, 60), Vec3(1, 0, 2)});
-  if (n % 40 == 10) layer.set_state(4, {Vec3(0, 0.5, 3), Quat::Identity()}, {Vec3(0, 0, -2), {}});
+  if (n % 40 == 10)
+    layer.set_state(4, {Vec3(0, 0.5, 3), Quat::Identity()}, {Vec3(0, 0, -2), Vec3::Zero()});
 }
 
 // One body's state becomes nothing: it is frozen.
