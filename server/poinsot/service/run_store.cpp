@@ -35,7 +35,7 @@ std::optional<Store> open_store(const DaemonOptions& options, const std::string&
 RunStore run_store(const Store& store, const std::string& world, Logger logger) {
   return {
       .write = [&store](const Checkpoint& checkpoint) { store.save(checkpoint); },
-      .read = [&store](const std::string& name) { return store.load(name); },
+      .read = [&store](const std::string& name) { return read(store, name); },
       .log =
           [&store, world](const std::string& name, std::shared_ptr<const Checkpoint> checkpoint) {
             return std::make_shared<CommandLogWriter>(

@@ -17,8 +17,9 @@ Scene two_spheres() {
 Order spawn(const std::string& name) {
   Order order;
   order.control.action = ControlAction::spawn;
-  order.fragment = std::make_shared<const std::vector<BodyDef>>(parse_fragment(
-      "bodies: [{name: " + name + ", shape: {sphere: 1}, density: 1, position: [9, 9, 9]}]"));
+  order.fragment = std::make_shared<const std::vector<BodyDef>>(
+      parse_fragment("bodies: [{name: " + name + ", shape: {sphere: 1}, density: 1, position: [" +
+                     std::to_string(5 * (name[0] - 'a')) + ", 9, 9]}]"));
   return order;
 }
 
