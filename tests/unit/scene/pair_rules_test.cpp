@@ -70,8 +70,8 @@ TEST(PairRules, FindsEachOfManyEntriesWhicheverWayItIsAsked) {
 TEST(PairRules, HoldForBodiesThatComeAndNoLongerForThoseThatWent) {
   Scene scene = crowd(3);
   PairDef pair;
-  pair.a = "2";
-  pair.b = "0";
+  pair.a = std::to_string(2);
+  pair.b = std::to_string(0);
   pair.collide = false;
   scene.pairs.push_back(pair);
   PairRules rules(scene);
@@ -79,7 +79,7 @@ TEST(PairRules, HoldForBodiesThatComeAndNoLongerForThoseThatWent) {
   rules.remove(0);
   EXPECT_TRUE(rules.collide(0, 2));
   BodyDef other;
-  other.name = "other";
+  other.name = std::to_string(9);
   other.material = {0.9, 0.7};
   rules.add(0, other);
   expect_rule(rules.rule(0, 2), std::sqrt(0.9 * scene.bodies[2].material.friction), 0.7, true);
