@@ -70,8 +70,10 @@ void FrameLoop::record(const RunControl& control) {
 }
 
 std::shared_ptr<CommandLogWriter> FrameLoop::begin_recording(const std::string& name) {
-  auto log = options_.store.log(
-      name, {.original = layer_.original_scene(), .checkpoint = layer_.make_checkpoint("")});
+  LogStart start;
+  start.original = layer_.original_scene();
+  start.checkpoint = layer_.make_checkpoint("");
+  auto log = options_.store.log(name, std::move(start));
   recording_.begin(name, log, layer_.frame() + 1, layer_.epoch());
   return log;
 }
