@@ -65,8 +65,6 @@ class PresentationLayer {
   double time() const { return collision_.time(); }                      // [s] frame / frame_rate
   // As it is now, with absent bodies: places that nobody has. In the order of the slots.
   const Scene& scene() const { return scene_.now(); }
-  // As it was given: what a reset goes back to.
-  std::shared_ptr<const Scene> original_scene() const { return scene_.share_original(); }
   const World& world() const { return collision_.world(); }
 
   // The dynamic bodies at the end of the last frame, with its hash. session and publish_time_ns are

@@ -40,11 +40,19 @@ CommandReceiver::CommandReceiver(Participant& participant, const std::string& wo
       control_topic_(participant, world, {}, [this](const WriterKey& key) { note_lost(key); }) {
   waiter_.attach(wrench_topic_);
   waiter_.attach(control_topic_);
+  {
+    const std::lock_guard lock(mutex_);
+    listens_ = true;
+  }
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
 void CommandReceiver::stop() {
   thread_.request_stop();
+  {
+    const std::lock_guard lock(mutex_);
+    listens_ = false;
+  }
   waiter_.wake();
   if (thread_.joinable()) thread_.join();
 }
@@ -130,11 +138,9 @@ void CommandReceiver::refuse(std::uint64_t client, std::uint64_t seq, ResultCode
 }
 
 void CommandReceiver::note_lost(const WriterKey& writer) {
-  {
-    const std::lock_guard lock(mutex_);
-    lost_.push_back(writer);
-  }
-  waiter_.wake();
+  const std::lock_guard lock(mutex_);
+  lost_.push_back(writer);
+  if (listens_) waiter_.wake();
 }
 
 void CommandReceiver::release_lost(std::vector<WriterKey>& writers) {

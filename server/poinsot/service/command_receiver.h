@@ -49,10 +49,11 @@ class CommandReceiver {
 
   std::mutex mutex_;
   std::vector<WriterKey> lost_;  // under the mutex; filled by threads of the bus
+  bool listens_ = false;         // under the mutex: there is a waiter to wake
 
-  Waiter waiter_;
   Subscriber<WrenchCommand> wrench_topic_;
   Subscriber<RunControl> control_topic_;
+  Waiter waiter_;
   WrenchCommand wrench_;
   RunControl control_;
   std::jthread thread_;  // last: ends before what it uses

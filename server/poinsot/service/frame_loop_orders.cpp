@@ -4,6 +4,7 @@
 #include <string>
 
 #include "poinsot/base/limits.h"
+#include "poinsot/presentation/value_check.h"
 #include "poinsot/service/frame_loop.h"
 
 namespace poinsot {
@@ -16,10 +17,6 @@ constexpr double kFrameSlack = 1e-6;
 
 std::string name_of(ControlAction action) {
   return std::string(name_of<ControlAction>(kControlActionNames, action));
-}
-
-Refusal invalid(std::string reason) {
-  return {ResultCode::invalid_value, std::move(reason)};
 }
 
 // What ends a step or run_until that is under way. A restore does so when its checkpoint is there.

@@ -43,7 +43,9 @@ TEST(HeldText, SaysWhoHoldsWhatOnWhichBody) {
         "you              drag   big ball             61-120           tether to (1, 2, 3) m, 50 "
         "N/m, 20 N s/m, at (0, 0, 0) m, ends with its client"})
     EXPECT_NE(text.find(words), std::string::npos) << text;
-  EXPECT_EQ(held_text({HeldList{.frame = 7}, roster, kMe, 60}), "frame 7: nothing is held\n");
+  HeldList nothing;
+  nothing.frame = 7;
+  EXPECT_EQ(held_text({nothing, roster, kMe, 60}), "frame 7: nothing is held\n");
 }
 
 TEST(HeldJson, HasANullForWhatHasNoEndAndNoSlot) {

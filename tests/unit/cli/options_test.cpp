@@ -195,7 +195,7 @@ TEST(SetOptions, TakeAnOrientationAsAQuaternionOrAsAngles) {
 
 TEST(RecordOptions, EitherNameALogOrEndIt) {
   EXPECT_EQ(to_control(RecordOptions{.name = "today"}).name, "today");
-  EXPECT_EQ(to_control(RecordOptions{.stop = true}).name, "");
+  EXPECT_EQ(to_control(RecordOptions{.name = {}, .stop = true}).name, "");
   EXPECT_THROW(to_control(RecordOptions{}), Error);
 }
 

@@ -24,7 +24,7 @@ class Documentation : public testing::Test {
     push->add_option("body", body_, "name of the body")->required()->type_name("BODY");
     push->add_option("-n,--count", count_, "how often")->check(CLI::PositiveNumber)->type_name("N");
     push->add_option("--frame", frame_, "the body's or the world's axes")->type_name("world|body");
-    push->add_flag("--json", "as [JSON]: an object");
+    push->add_flag("--json", json_, "as [JSON]: an object");
     push->add_option("--secret", secret_, "not for everyone")->group("");
     push->footer("Example:\n  .leading dot\n  back\\slash");
     CLI::App* const load = app_.add_subcommand("load", "load it");
@@ -36,6 +36,7 @@ class Documentation : public testing::Test {
   CLI::App app_{"a program", "tool"};
   std::string body_, frame_, secret_, file_;
   int count_ = 0;
+  bool json_ = false;
 };
 
 TEST_F(Documentation, ReadsVerbsOptionsAndValues) {
