@@ -103,8 +103,10 @@ std::vector<std::string> WorldDirectory::worlds() const {
   return {names.begin(), names.end()};
 }
 
-void WorldDirectory::on_publisher_discovery(dds::DomainParticipant*,
+void WorldDirectory::on_publisher_discovery(dds::DomainParticipant* self,
                                             rtps::WriterDiscoveryInfo&& info) {
+  // A participant hears of its own writers as well.
+  if (self != nullptr && info.info.guid().guidPrefix == self->guid().guidPrefix) return;
   const std::string world = world_of(info.info.topicName().c_str());
   if (world.empty() || !is_in(partition_, info.info)) return;
   const std::lock_guard lock(mutex_);

@@ -51,6 +51,7 @@ void FrameLoop::restore_from_disk(const RunControl& control) {
 }
 
 void FrameLoop::record(const RunControl& control) {
+  drop_failed_recording();
   if (control.name.empty()) return end_recording(control);
   if (recording_.active())
     return answer(control, ResultCode::incorrect_state,
