@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "poinsot/base/error.h"
+#include "poinsot/program/documentation.h"
 #include "poinsot/program/exit_code.h"
 #include "poinsot/program/log.h"
 #include "poinsot/program/options.h"
@@ -237,7 +238,12 @@ int main_of(int argc, const char* const* argv) {
   const CLI::App* study_command = add_study(app, options);
   const CLI::App* replay_command = add_replay(app, options);
   add_check(app, options);
+  const DocumentationVerbs documentation(app, "poinsot(1)");
   if (const auto code = parse_command_line(app, argc, argv, std::cout, std::cerr)) return *code;
+  if (const auto text = documentation.text()) {
+    std::cout << *text;
+    return to_int(ExitCode::ok);
+  }
   try {
 #ifdef POINSOT_BUS
     if (run_command->parsed() && options.supervise)

@@ -21,6 +21,7 @@ int main(int argc, char** argv) try {
   push.force = {0, 0, 50};  // [N] along axes of the world, at the centre of mass
   push.hold = poinsot::Hold::duration;
   push.duration_ns = 500'000'000;
+  push.outlives_client = true;  // this program ends at once; else the push would end with it
 
   const poinsot::Reply reply = client.apply(push, 2s);
   if (reply.code != poinsot::ResultCode::ok) {

@@ -1,5 +1,6 @@
 // What a checkpoint of the physics costs: its size, and the time to write it, to make a layer of
-// the scene and to read it back. Prints a table, the least of several times.
+// the scene and to read it back; beside them the time to hash the state. Prints a table, the least
+// of several times.
 
 #include <algorithm>
 #include <chrono>
@@ -41,10 +42,16 @@ void measure(const char* name, const Scene& scene, int frames) {
     ByteReader in(out.bytes());
     fresh.restore(in);
   });
+  const double hash = 1e3 * least_time([&] {
+                        Hash64 all;
+                        layer.hash_into(all);
+                        volatile std::uint64_t value = all.value();
+                        static_cast<void>(value);
+                      });
   const auto bodies = static_cast<double>(scene.bodies.size());
-  std::printf("%-32s %7.0f %9u %10zu %9.0f %9.2f %9.2f %9.2f\n", name, bodies,
+  std::printf("%-32s %7.0f %9u %10zu %9.0f %9.2f %9.2f %9.2f %9.1f\n", name, bodies,
               layer.report().contacts, out.bytes().size(),
-              static_cast<double>(out.bytes().size()) / bodies, save, make, restore);
+              static_cast<double>(out.bytes().size()) / bodies, save, make, restore, hash);
 }
 
 // Columns of ten boxes: 100 of them are 1000 bodies in contact.
@@ -82,8 +89,8 @@ Scene free_bodies(int n, bool with_shapes) {
 
 int main() {
   using namespace poinsot;
-  std::printf("%-32s %7s %9s %10s %9s %9s %9s %9s\n", "", "bodies", "points", "bytes", "per body",
-              "save ms", "make ms", "restore");
+  std::printf("%-32s %7s %9s %10s %9s %9s %9s %9s %9s\n", "", "bodies", "points", "bytes",
+              "per body", "save ms", "make ms", "restore", "hash us");
   measure("columns, accurate", awake(columns(Profile::accurate)), 30);
   measure("columns, fast", awake(columns(Profile::fast)), 30);
   measure("columns, asleep", columns(Profile::accurate), 30);

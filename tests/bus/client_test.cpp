@@ -30,13 +30,16 @@ class FakeDaemon {
         poses(participant_, world),
         report(participant_, world),
         events(participant_, world),
-        scene_(participant_, world),
+        scene(participant_, world),
+        contacts(participant_, world),
+        held(participant_, world),
         reply_(participant_, world),
         wrench_(participant_, world),
         control_(participant_, world),
         deaf_(deaf) {
     for (std::uint32_t i = kBodies; i > missing_bodies; --i)
-      scene_.write(sample::body_info(i - 1, kBodies));
+      scene.write(sample::body_info(i - 1, kRevision));
+    report.write(report_of(kBodies, kRevision));
     waiter_.attach(wrench_);
     waiter_.attach(control_);
     thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
@@ -46,7 +49,16 @@ class FakeDaemon {
     waiter_.wake();
   }
 
-  static constexpr std::uint32_t kBodies = 3;
+  static constexpr std::uint32_t kBodies = 3, kRevision = 3;
+
+  // Of the session that the bodies are of.
+  static RunReport report_of(std::uint32_t bodies, std::uint32_t revision) {
+    RunReport report = sample::report();
+    report.session = sample::body_info(0, 1).session;
+    report.scene_bodies = bodies;
+    report.scene_revision = revision;
+    return report;
+  }
 
  private:
   Participant participant_;
@@ -55,6 +67,9 @@ class FakeDaemon {
   Publisher<PoseSnapshot> poses;
   Publisher<RunReport> report;
   Publisher<ImpactNotice> events;
+  Publisher<BodyInfo> scene;
+  Publisher<ContactSnapshot> contacts;
+  Publisher<HeldList> held;
 
  private:
   void serve(const std::stop_token& stop) {
@@ -79,7 +94,6 @@ class FakeDaemon {
                   .first_frame = static_cast<std::uint64_t>(times)});
   }
 
-  Publisher<BodyInfo> scene_;
   Publisher<Reply> reply_;
   Subscriber<WrenchCommand> wrench_;
   Subscriber<RunControl> control_;
@@ -153,7 +167,7 @@ TEST(ClientTest, ListsTheWorldsIfThereAreSeveral) {
   EXPECT_EQ(
       text_of_no_answer([&] { unnamed.wait_for_server(kPatience); }),
       "several worlds on domain " + std::to_string(test_domain()) + ", name one of them: one, two");
-  EXPECT_EQ(find_worlds(test_domain(), false, 500ms), (Names{"one", "two"}));
+  EXPECT_EQ(find_worlds(on_test_domain(""), 500ms), (Names{"one", "two"}));
   Client wrong(on_test_domain("three"));
   EXPECT_EQ(text_of_no_answer([&] { wrong.wait_for_server(500ms); }),
             "world 'three' not found on domain " + std::to_string(test_domain()) +
@@ -190,7 +204,7 @@ TEST(ClientTest, KnowsTheSceneOnceItIsComplete) {
   const std::vector<BodyInfo> bodies = client.scene(kPatience);
   ASSERT_EQ(bodies.size(), FakeDaemon::kBodies);
   for (std::uint32_t i = 0; i < FakeDaemon::kBodies; ++i)
-    expect_same(bodies[i], sample::body_info(i, FakeDaemon::kBodies));
+    expect_same(bodies[i], sample::body_info(i, FakeDaemon::kRevision));
   EXPECT_EQ(client.scene(0s).size(), FakeDaemon::kBodies);
 }
 
@@ -200,6 +214,103 @@ TEST(ClientTest, SaysWhatOfTheSceneIsMissing) {
   client.wait_for_server(kPatience);
   EXPECT_EQ(text_of_no_answer([&] { client.scene(500ms); }),
             "the scene of world 'partial' is incomplete: 2 of 3 bodies within 0.5 s");
+}
+
+TEST(ClientTest, FollowsWhatIsSpawnedAndRemoved) {
+  FakeDaemon daemon("changes");
+  Client client(on_test_domain("changes"));
+  ASSERT_EQ(client.scene(kPatience).size(), 3u);
+  const BodyInfo spawned = sample::body_info(7, 4);
+  daemon.scene.write(spawned);
+  daemon.report.write(FakeDaemon::report_of(4, 4));
+  ASSERT_TRUE(eventually([&] { return client.scene(kPatience).size() == 4; }));
+  EXPECT_EQ(client.scene_revision(), 4u);
+  BodyInfo gone = sample::body_info(0, 5);
+  gone.removed = true;
+  daemon.scene.write(gone);
+  daemon.report.write(FakeDaemon::report_of(3, 5));
+  ASSERT_TRUE(eventually([&] { return client.scene(kPatience).size() == 3; }));
+  EXPECT_EQ(client.scene(kPatience).back().name, spawned.name);
+  Client late(on_test_domain("changes"));
+  EXPECT_EQ(late.scene(kPatience).size(), 3u);
+}
+
+TEST(ClientTest, ReceivesNoPosesIfItWantsNone) {
+  FakeDaemon daemon("none");
+  ClientOptions options = on_test_domain("none");
+  options.poses = std::nullopt;
+  Client client(options);
+  client.wait_for_server(kPatience);
+  EXPECT_EQ(daemon.poses.readers(), 0);
+  PoseSnapshot poses;
+  EXPECT_FALSE(client.next_poses(poses, 10ms));
+}
+
+TEST(ClientTest, CountsThePosesThatDidNotArrive) {
+  FakeDaemon daemon("lost");
+  Client client(on_test_domain("lost"));
+  client.wait_for_server(kPatience);
+  ASSERT_TRUE(eventually([&] { return daemon.poses.readers() == 1; }));
+  PoseSnapshot poses = sample::poses(1, 2);
+  for (const std::uint64_t sequence : {5, 6, 9}) {
+    poses.frame = poses.sequence = sequence;
+    daemon.poses.write(poses);
+    ASSERT_TRUE(client.next_poses(poses, kPatience));
+  }
+  EXPECT_EQ(client.lost_poses(), 2u);
+}
+
+TEST(ClientTest, ReadsContactsAndWhatIsHeldFromTheFirstCallOn) {
+  FakeDaemon daemon("taps");
+  Client client(on_test_domain("taps"));
+  client.wait_for_server(kPatience);
+  ContactSnapshot contacts;
+  EXPECT_FALSE(client.next_contacts(contacts, 0ms));
+  ASSERT_TRUE(eventually([&] { return daemon.contacts.readers() == 1; }));
+  const ContactSnapshot sent = sample::contacts();
+  daemon.contacts.write(sent);
+  ASSERT_TRUE(client.next_contacts(contacts, kPatience));
+  EXPECT_EQ(contacts.contacts.size(), sent.contacts.size());
+
+  EXPECT_THROW(client.held(0ms), NoAnswer);
+  ASSERT_TRUE(eventually([&] { return daemon.held.readers() == 1; }));
+  daemon.held.write(sample::held());
+  EXPECT_EQ(client.held(kPatience).items.size(), sample::held().items.size());
+  EXPECT_EQ(client.held(0ms).items.size(), sample::held().items.size()) << "it is known";
+}
+
+TEST(ClientTest, WaitsForALongControlWhileTheRunAdvances) {
+  constexpr int kDeaf = 6;  // times 250 ms
+  FakeDaemon daemon("long", kDeaf);
+  Client client(on_test_domain("long"));
+  client.wait_for_server(kPatience);
+  std::jthread run([&](const std::stop_token& stop) {
+    RunReport report = FakeDaemon::report_of(3, 3);
+    for (; !stop.stop_requested(); ++report.frame.frame) {
+      daemon.report.write(report);
+      std::this_thread::sleep_for(50ms);
+    }
+  });
+  const Reply reply = client.control({.action = ControlAction::step, .frames = 1000}, 700ms);
+  EXPECT_EQ(reply.first_frame, kDeaf + 1u);
+  EXPECT_THROW(client.control({.action = ControlAction::pause}, 700ms), NoAnswer)
+      << "a short one is not waited for longer";
+}
+
+TEST(ClientTest, AStopEndsWhateverWaits) {
+  std::stop_source stop;
+  ClientOptions options = on_test_domain("stopped");
+  options.stop = stop.get_token();
+  Client client(options);
+  const std::jthread later([&] {
+    std::this_thread::sleep_for(50ms);
+    stop.request_stop();
+  });
+  EXPECT_THROW(client.scene(kPatience), Stopped);
+  EXPECT_THROW(client.wait_for_server(kPatience), Stopped);
+  PoseSnapshot poses;
+  EXPECT_THROW(client.next_poses(poses, kPatience), Stopped);
+  EXPECT_THROW(client.apply({.body_name = "box"}, kPatience), Stopped);
 }
 
 TEST(ClientTest, ReturnsEachReportOnceAndTheNewestOfThem) {

@@ -76,6 +76,8 @@ int serve(const Role& role) {
   scene.write(body);
   RunReport status = sample::report();
   status.session = session;
+  status.scene_bodies = 1;
+  status.scene_revision = 1;
   report.write(status);
   PoseSnapshot frame = sample::poses(static_cast<std::uint64_t>(role.count), 1);
   frame.session = session;

@@ -54,6 +54,8 @@ Endpoints join(dds_domainid_t domain, const char* world) {
   bus.scene = make_reader(us, &SCENE_TYPE, world, "scene", FOR_LATE_JOINERS, 1);
   bus.report = make_reader(us, &REPORT_TYPE, world, "report", FOR_LATE_JOINERS, 1);
   bus.events = make_reader(us, &EVENTS_TYPE, world, "events", 0, 1000);
+  bus.contacts = make_reader(us, &CONTACTS_TYPE, world, "contacts", 0, 60);
+  bus.held = make_reader(us, &HELD_TYPE, world, "held", 0, 60);
   bus.reply = make_reader(us, &REPLY_TYPE, world, "reply", 0, 1024);
   bus.wrench = make_writer(us, &WRENCH_TYPE, world, "wrench");
   bus.control = make_writer(us, &CONTROL_TYPE, world, "control");

@@ -7,8 +7,8 @@
 
 typedef struct Endpoints {
   dds_entity_t participant;
-  dds_entity_t poses, scene, report, events, reply; /* readers */
-  dds_entity_t wrench, control;                     /* writers */
+  dds_entity_t poses, scene, report, events, contacts, held, reply; /* readers */
+  dds_entity_t wrench, control;                                     /* writers */
 } Endpoints;
 
 Endpoints join(dds_domainid_t domain, const char* world);

@@ -7,12 +7,14 @@
  * frames, pauses it again, and prints a line for all that it received and sent:
  *
  *   report STATE FRAME BODIES                    the first one
- *   body INDEX COUNT SLOT GENERATION KIND MASS NAME
+ *   body INDEX SLOT GENERATION KIND MASS NAME
  *   sent wrench|control CLIENT SEQ TEXT
  *   reply CLIENT SEQ CODE FIRST LAST HASH TEXT   to this client
  *   pose FRAME HASH BODIES VX VY VZ              velocity of BODY [m/s in W]
  *   event FRAME TIME IX IY IZ                    impulse [N s in W]
- *   summary poses N gaps N scene N reports N events N replies N
+ *   contacts FRAME POINTS FX FY FZ               of all contacts, added up [N in W]
+ *   held FRAME ITEMS                             wrenches that are held
+ *   summary poses N gaps N scene N reports N events N contacts N held N replies N
  *
  * Exit status 0: all of it came; 1: something did not within 20 s.
  */
@@ -35,12 +37,12 @@ typedef struct Peer {
   Endpoints bus;
   uint64_t client, seq;
   const char* body_name;
-  BodyDescription body; /* what BODY is; generation 0 until known */
-  uint32_t scene_count; /* bodies that the scene has */
-  uint64_t replied;     /* seq of the newest reply to us */
+  BodyDescription body;  /* what BODY is; generation 0 until known */
+  uint32_t scene_bodies; /* that the scene has */
+  uint64_t replied;      /* seq of the newest reply to us */
   uint64_t first_frame, last_frame;
   uint64_t frame; /* newest */
-  unsigned poses, gaps, scene, reports, events, replies;
+  unsigned poses, gaps, scene, reports, events, contacts, held, replies;
 } Peer;
 
 /* Takes what `reader` has and hands each valid sample to `use`. */
@@ -55,16 +57,16 @@ static void take_all(Peer* peer, dds_entity_t reader, void (*use)(Peer*, const v
 
 static void use_report(Peer* peer, const void* sample) {
   const RunStatus* status = sample;
+  peer->scene_bodies = status->scene_bodies;
   if (peer->reports++ == 0)
     printf("report %d %" PRIu64 " %u\n", (int)status->state, status->frame_index, status->bodies);
 }
 
 static void use_body(Peer* peer, const void* sample) {
   const BodyDescription* body = sample;
-  printf("body %u %u %u %u %d %.17g %s\n", body->scene_index, body->scene_count, body->slot,
-         body->generation, (int)body->kind, body->mass, body->name);
+  printf("body %u %u %u %d %.17g %s\n", body->scene_index, body->slot, body->generation,
+         (int)body->kind, body->mass, body->name);
   if (strcmp(body->name, peer->body_name) == 0) peer->body = *body; /* numbers only are used */
-  peer->scene_count = body->scene_count;
   ++peer->scene;
 }
 
@@ -75,7 +77,7 @@ static void use_poses(Peer* peer, const void* sample) {
   ++peer->poses;
   peer->frame = frame->frame_index;
   for (uint32_t i = 0; i < frame->bodies._length; ++i) {
-    const poinsot_msg_v1_BodyMotion* motion = &frame->bodies._buffer[i];
+    const BodyMotion* motion = &frame->bodies._buffer[i];
     if (motion->body.slot != peer->body.slot || motion->body.generation != peer->body.generation)
       continue;
     printf("pose %" PRIu64 " %" PRIu64 " %u %.17g %.17g %.17g\n", frame->frame_index,
@@ -91,6 +93,25 @@ static void use_event(Peer* peer, const void* sample) {
   ++peer->events;
 }
 
+static void use_contacts(Peer* peer, const void* sample) {
+  const ContactFrame* frame = sample;
+  double force[3] = {0, 0, 0};
+  for (uint32_t i = 0; i < frame->contacts._length; ++i) {
+    force[0] += frame->contacts._buffer[i].force.x;
+    force[1] += frame->contacts._buffer[i].force.y;
+    force[2] += frame->contacts._buffer[i].force.z;
+  }
+  printf("contacts %" PRIu64 " %u %.17g %.17g %.17g\n", frame->frame_index, frame->contacts._length,
+         force[0], force[1], force[2]);
+  ++peer->contacts;
+}
+
+static void use_held(Peer* peer, const void* sample) {
+  const HeldWrenches* held = sample;
+  printf("held %" PRIu64 " %u\n", held->frame_index, held->items._length);
+  ++peer->held;
+}
+
 static void use_reply(Peer* peer, const void* sample) {
   const CommandReply* reply = sample;
   if (reply->client != peer->client || reply->seq <= peer->replied) return;
@@ -104,7 +125,7 @@ static void use_reply(Peer* peer, const void* sample) {
 }
 
 static int has_scene(const Peer* peer) {
-  return peer->reports > 0 && peer->scene > 0 && peer->scene == peer->scene_count;
+  return peer->reports > 0 && peer->scene > 0 && peer->scene == peer->scene_bodies;
 }
 
 static void receive(Peer* peer) {
@@ -112,6 +133,8 @@ static void receive(Peer* peer) {
   take_all(peer, peer->bus.scene, use_body);
   if (has_scene(peer)) take_all(peer, peer->bus.poses, use_poses); /* bodies are known by it */
   take_all(peer, peer->bus.events, use_event);
+  take_all(peer, peer->bus.contacts, use_contacts);
+  take_all(peer, peer->bus.held, use_held);
   take_all(peer, peer->bus.reply, use_reply);
   fflush(stdout);
 }
@@ -136,6 +159,10 @@ static int is_met(const Peer* peer) {
          met(peer->bus.poses) > 0 && met(peer->bus.events) > 0;
 }
 
+static int has_poses(const Peer* peer) {
+  return peer->poses > 0;
+}
+
 static int has_reply(const Peer* peer) {
   return peer->replied == peer->seq;
 }
@@ -158,6 +185,7 @@ static void push(Peer* peer, double x, double y, double z, double seconds) {
   wrench.seq = ++peer->seq;
   wrench.body.slot = peer->body.slot;
   wrench.body.generation = peer->body.generation;
+  wrench.kind = WRENCH_FORCE;
   wrench.force.x = x;
   wrench.force.y = y;
   wrench.force.z = z;
@@ -192,6 +220,7 @@ int main(int argc, char** argv) {
   peer.bus = join((dds_domainid_t)atoi(argv[1]), argv[2]);
   need(&peer, is_met, "a daemon");
   need(&peer, has_scene, "the whole scene");
+  need(&peer, has_poses, "a frame");
 
   push(&peer, atof(argv[4]), atof(argv[5]), atof(argv[6]), atof(argv[7]));
   control(&peer, CONTROL_RESUME);
@@ -202,8 +231,9 @@ int main(int argc, char** argv) {
     receive(&peer);
   }
   control(&peer, CONTROL_PAUSE);
-  printf("summary poses %u gaps %u scene %u reports %u events %u replies %u\n", peer.poses,
-         peer.gaps, peer.scene, peer.reports, peer.events, peer.replies);
+  printf("summary poses %u gaps %u scene %u reports %u events %u contacts %u held %u replies %u\n",
+         peer.poses, peer.gaps, peer.scene, peer.reports, peer.events, peer.contacts, peer.held,
+         peer.replies);
   checked(dds_delete(peer.bus.participant), "leaving");
   return peer.frame >= last ? 0 : 1;
 }

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "faults/scene.h"
+#include "support/temp_path.h"
 #include "support/test_domain.h"
 
 namespace poinsot::faults {
@@ -83,6 +84,48 @@ TEST(DaemonKilled, AtRandomPointsLeavesNothingBehindAndItsClientsGoOn) {
   }
   std::printf("%d rounds; a new daemon's frames were there after %.2f s at the most\n", rounds(),
               longest);
+}
+
+// The daemon that a supervisor runs.
+pid_t child_of(pid_t supervisor) {
+  const std::string id = std::to_string(supervisor);
+  pid_t child = 0;
+  std::ifstream("/proc/" + id + "/task/" + id + "/children") >> child;
+  return child;
+}
+
+TEST(DaemonKilled, UnderASupervisorGoesOnFromItsLastCheckpoint) {
+  // A supervisor gives up after five failures in ten seconds.
+  constexpr std::uint64_t kFramesBetween = 150;
+  constexpr std::uint64_t kAutosave = 60;  // frames
+  const std::string data = test::make_temp_directory();
+  const Daemon daemon(kWorld, {"--supervise", "--autosave", "1s", "--data", data});
+  const Witness witness(test_domain(), kWorld);
+  std::mt19937 random(20);
+  std::vector<double> took;  // [s] from the end of a daemon to the next one's first frame
+  std::uint64_t from = 0;
+  for (int round = 0; round < (rounds() + 2) / 3; ++round) {
+    const std::uint64_t until = from + kFramesBetween + random() % kAutosave;
+    ASSERT_TRUE(eventually([&] { return witness.frame() > until; })) << round;
+    const std::uint64_t session = witness.session(), reached = witness.frame();
+    const pid_t child = child_of(daemon.id());
+    ASSERT_GT(child, 0);
+    const auto killed = Clock::now();
+    ASSERT_EQ(kill(child, SIGKILL), 0);
+    ASSERT_TRUE(eventually([&] { return witness.session() != session; })) << round;
+    took.push_back(std::chrono::duration<double>(Clock::now() - killed).count());
+    from = witness.seen().begin()->first;
+    EXPECT_LE(from, reached + 1);
+    // Not from the start: from a checkpoint of the last second or, if that was not complete, of the
+    // one before; and what the witness missed while it met the newcomer.
+    EXPECT_GT(from + 3 * kAutosave, reached) << round;
+    ASSERT_TRUE(eventually([&] { return witness.frame() > from + 30; }));
+    expect_undisturbed(witness, 30);
+    std::printf("killed at frame %llu, goes on at %llu after %.2f s\n",
+                static_cast<unsigned long long>(reached), static_cast<unsigned long long>(from),
+                took.back());
+  }
+  std::filesystem::remove_all(data);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ from rtps import (CDR, DATA, DATA_FRAG, LIVELINESS_READER, LIVELINESS_WRITER, PA
 
 WORLD = "bouncing_balls"
 TOPIC = f"poinsot/{WORLD}/wrench"
-TYPE = "poinsot::msg::v1::BodyWrench"
+TYPE = "poinsot::msg::v2::BodyWrench"
 MEMORY = 4 << 30
 HUGE = (0, 1, 2, 3, 255, 256, 257, 0x7FFF, 0xFFFF, 0x10000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFE, 0xFFFFFFFF)
 FAR = (-(1 << 62), -2, -1, 0, 1, 2, 1000, (1 << 31) - 1, 1 << 32, (1 << 62), (1 << 63) - 1)
@@ -159,6 +159,11 @@ def fragments_of_a_giant(peer, r, n):
     return peer.packet(fragment(USER_WRITER, UNKNOWN, n + 1, 1, 1, 1000, 0xFFFFFF00, bytes(1000)))
 
 
+def fragments_of_the_largest(peer, r, n):
+    """The same of as much as a sample may have: 200 MB."""
+    return peer.packet(fragment(USER_WRITER, UNKNOWN, n + 1, 1, 1, 1000, 200000000, bytes(1000)))
+
+
 def heartbeat_frags(peer, r, n):
     return peer.packet(submessage(rtps.HEARTBEAT_FRAG, UNKNOWN + USER_WRITER + sequence_number(r.choice(FAR)) +
                                   struct.pack("<II", r.choice(HUGE), n)),
@@ -194,8 +199,8 @@ def type_objects(peer, r, n):
 
 def participants(peer, r, n):
     """A new participant with each packet."""
-    return peer.packet(data(SPDP_WRITER, SPDP_READER, 1, PL_CDR + rtps.participant_list(
-        b"\x01\x0f" + r.randbytes(10), 9, 9) + SENTINEL))
+    prefix = b"\x01\x0f" + r.randbytes(10)
+    return header(prefix) + data(SPDP_WRITER, SPDP_READER, 1, PL_CDR + rtps.participant_list(prefix, 9, 9) + SENTINEL)
 
 
 def endpoints(peer, r, n):
@@ -224,7 +229,8 @@ def in_the_daemons_name(peer, r, n):
 
 KINDS = [random_bytes, random_behind_header, every_submessage, wrong_length, truncated, bit_flips, many_submessages, info,
          heartbeat_counts, heartbeat_ranges, acknack_sets, nack_frag_sets, gap_sets, gap_of_a_million, gap_without_end,
-         data_sizes, inline_qos, fragments, fragments_of_a_giant, heartbeat_frags, parameter_lists, huge_parameter_list,
+         data_sizes, inline_qos, fragments, fragments_of_a_giant, fragments_of_the_largest,
+         heartbeat_frags, parameter_lists, huge_parameter_list,
          type_objects, participants, endpoints, liveliness, departures, in_the_daemons_name]
 
 

@@ -90,7 +90,6 @@ TEST(Tether, AtACornerKeepsEnergyWithoutDamping) {
   run_until(layer, 10);
   // Series cut at 1e-14 in each of 600 frames, and rounding.
   EXPECT_NEAR(layer.energy(), start, 600 * 1e-14 * 10 * start);
-  EXPECT_EQ(layer.simulation().work(), layer.simulation().work());
 }
 
 TEST(Tether, AtACornerLosesWhatItsDampingTakes) {
@@ -201,11 +200,13 @@ TEST(Tether, HugePullsIntoAWall) {
 }
 
 TEST(Tether, HugeStaysStable) {
+  // Critical damping is at 2 √(k m) = 9e4.
   for (const double damping : {0.0, 1e4, 1e5, 1e7}) {
     CollisionLayer layer(test::scene({spinning_box()}));
-    set(layer, {tether(0, {0.3, 0.2, 0.1}, {0, 0, 1}, 1e9, damping)});
+    const Tether held = tether(0, {0.3, 0.2, 0.1}, {0, 0, 1}, 1e9, damping);
+    set(layer, {held});
     const double start = layer.energy();
-    run_until(layer, 0.5);
+    run_until(layer, 0.1);
     EXPECT_EQ(layer.simulation().quarantined(), 0u) << damping;
     EXPECT_LE(layer.energy(), start * (1 + 1e-9)) << damping;
     EXPECT_LT(std::abs(layer.energy_error()), 1e-6) << damping;
@@ -245,8 +246,8 @@ TEST(Tether, WakesASleeperAndKeepsItAwake) {
 TEST(Tether, MovedInEveryFrameIsTheSameAtAnyThreadCount) {
   const auto ended = [](int threads) {
     std::vector<BodyDef> bodies{test::ground()};
-    for (int i = 0; i < 40; ++i) {
-      const Vec3 at(0.5 * (i % 5), 0.5 * (i / 5 % 4), 0.2 + 0.45 * (i / 20));
+    for (int i = 0; i < 12; ++i) {
+      const Vec3 at(0.5 * (i % 3), 0.5 * (i / 3 % 2), 0.2 + 0.45 * (i / 6));
       bodies.push_back(test::box("box" + std::to_string(i), at, {0.4, 0.4, 0.4}, 2));
     }
     Scene scene = test::scene(std::move(bodies));
@@ -254,8 +255,8 @@ TEST(Tether, MovedInEveryFrameIsTheSameAtAnyThreadCount) {
     CollisionLayer layer(scene);
     for (int n = 0; n < 90; ++n) {
       std::vector<Tether> tethers;
-      for (const Eigen::Index i : {1, 7, 23, 40})
-        tethers.push_back(tether(i, {0.1, 0.2, -0.1}, {0.02 * n, 1, 1 - 0.005 * n}, 300, 20));
+      for (const Eigen::Index i : {1, 5, 8, 12})
+        tethers.push_back(tether(i, {0.1, 0.2, -0.1}, {0.02 * n, 1, 1 - 0.005 * n}, 100, 10));
       if (n > 45) tethers.pop_back();
       layer.set_tethers(tethers);
       layer.advance_to((n + 1) / test::kFrameRate);

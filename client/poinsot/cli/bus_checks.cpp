@@ -13,6 +13,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "poinsot/base/error.h"
 #include "poinsot/cli/connect.h"
 #include "poinsot/protocol/run_control.h"
 #include "poinsot/wire/publisher.h"
@@ -93,7 +94,9 @@ double ms_since(Clock::time_point start) {
 
 }  // namespace
 
-Finding check_meeting(const Context& context) {
+namespace {
+
+Finding meet(const Context& context) {
   const BusFlags& flags = context.flags.bus;
   const std::string meeting = "doctor-" + std::to_string(getpid());
   Participant participant(bus_options(flags));
@@ -135,6 +138,17 @@ Finding check_meeting(const Context& context) {
           {}};
 }
 
+}  // namespace
+
+Finding check_meeting(const Context& context) {
+  try {
+    return meet(context);
+  } catch (const Error& error) {
+    return {Health::fail, "meeting", error.what(),
+            "are all ports taken, or does a profile file forbid it?"};
+  }
+}
+
 ExitCode be_peer(const Context& context, const std::string& meeting) {
   Participant participant(bus_options(context.flags.bus));
   Subscriber<RunControl> questions(participant, meeting);
@@ -169,7 +183,7 @@ Findings check_worlds(const Context& context) {
                        world, name_of<RunState>(kRunStateNames, report.state), report.scene_bodies,
                        report.frame.frame, report.real_time_factor, report.session),
            {}});
-    } catch (const NoAnswer&) {
+    } catch (const std::runtime_error&) {
       findings.push_back({Health::fail, "world", world + ": announced, but does not answer",
                           "another version, or stopped (SIGSTOP, a debugger)? Start it again"});
     }

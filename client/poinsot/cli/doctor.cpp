@@ -39,8 +39,9 @@ ExitCode examine(const Context& context, const DoctorOptions& options) {
   tell(check_shared_memory());
   tell({check_socket_buffers()});
   tell({check_profiles()});
-  tell({check_meeting(context)});
-  tell(check_worlds(context));
+  const Finding meeting = check_meeting(context);
+  tell({meeting});
+  if (meeting.health != Health::fail) tell(check_worlds(context));
   if (options.json) put(findings_json(all));
   return has_failed(all) ? ExitCode::failure : ExitCode::ok;
 }

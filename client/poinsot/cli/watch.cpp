@@ -25,7 +25,8 @@ class Watch {
       : context_(context),
         options_(options),
         client_(connect(context, to_filter(options))),
-        roster_(client_.scene(context.flags.timeout), options.bodies) {
+        roster_(client_.scene(context.flags.timeout), options.bodies),
+        revision_(client_.scene_revision()) {
     take(client_.report(context.flags.timeout));
     if (!options.json && stdout_is_terminal()) {
       screen_.emplace();
@@ -74,7 +75,8 @@ class Watch {
   void draw() {
     try {
       take(client_.report(0ns));
-    } catch (const NoAnswer&) {  // no news
+      if (client_.scene_revision() != revision_) renew_roster();  // removed bodies too
+    } catch (const NoAnswer&) {                                   // no news
     }
     const WatchHeader header{.world = client_.world(),
                              .state = is_silent() ? "no frames (" + state_ + ")" : state_,
@@ -88,6 +90,7 @@ class Watch {
   // gone.
   void renew_roster() {
     roster_ = Roster(client_.scene(context_.flags.timeout), options_.bodies);
+    revision_ = client_.scene_revision();
     take(client_.report(context_.flags.timeout));
     context_.logger->info("scene_changed world={}", poinsot::quoted(client_.world()));
   }
@@ -95,7 +98,8 @@ class Watch {
   // A watch without end waits for the frames to come back; a counted one does not. Where only what
   // moves is sent, silence is as good as any frame.
   void check_silence(std::chrono::nanoseconds silence) {
-    if (silence < context_.flags.timeout || options_.has_deadband) return;
+    const std::chrono::duration<double> period(options_.rate > 0 ? 1 / options_.rate : 0);
+    if (silence < context_.flags.timeout + 2 * period || options_.has_deadband) return;
     const std::string text = "no frame of world '" + client_.world() +
                              "' came: is it paused, or gone? See 'poinsot status'";
     if (options_.count > 0) throw NoAnswer(text);
@@ -112,8 +116,9 @@ class Watch {
   std::optional<LiveScreen> screen_;
   PoseSnapshot poses_;
   LastPoses last_;
-  double frame_rate_ = 0;  // [Hz]
-  std::string state_;      // of the run
+  std::uint32_t revision_ = 0;  // of the scene that the roster is of
+  double frame_rate_ = 0;       // [Hz]
+  std::string state_;           // of the run
   Clock::time_point silent_since_ = Clock::now();
   std::uint64_t shown_ = 0;
   bool open_ = true;  // somebody reads

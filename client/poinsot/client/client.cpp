@@ -110,6 +110,12 @@ struct Client::Impl {
     return "world '" + world + "' not found on " + domain + after + "; there is: " + joined(worlds);
   }
 
+  std::string not_matched() const {
+    if (!link || !link->has_the_rest()) return nobody();
+    return "world '" + world + "' does not write the poses asked for: it may have too many " +
+           "filtered streams";
+  }
+
   void find_the_only_world(Clock::time_point until) {
     std::vector<std::string> worlds;
     while (true) {
@@ -285,7 +291,7 @@ void Client::wait_for_server(Duration timeout) {
   const Clock::time_point until = deadline(timeout);
   if (!impl_->link) impl_->find_the_only_world(until);
   while (!impl_->link || !impl_->link->is_matched()) {
-    if (!impl_->link || Clock::now() >= until) throw NoAnswer(impl_->nobody());
+    if (!impl_->link || Clock::now() >= until) throw NoAnswer(impl_->not_matched());
     impl_->nap();
   }
 }

@@ -29,10 +29,12 @@ struct Link {
     reply_wait.attach(reply);
   }
 
-  bool is_matched() const {
-    return (!poses || poses->writers() > 0) && scene.writers() > 0 && report.writers() > 0 &&
-           reply.writers() > 0 && wrench.readers() > 0 && control.readers() > 0;
+  bool has_poses() const { return !poses || poses->writers() > 0; }
+  bool has_the_rest() const {
+    return scene.writers() > 0 && report.writers() > 0 && reply.writers() > 0 &&
+           wrench.readers() > 0 && control.readers() > 0;
   }
+  bool is_matched() const { return has_poses() && has_the_rest(); }
 
   std::optional<Subscriber<PoseSnapshot>> poses;
   Subscriber<BodyInfo> scene;

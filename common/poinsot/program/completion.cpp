@@ -180,7 +180,11 @@ std::string zsh_script(const CommandTree& tree) {
       "  case $state in\n    verb) _describe verb verbs ;;\n    argument)\n"
       "      case $line[1] in\n";
   for (const VerbEntry& verb : tree.verbs) text += zsh_verb(verb);
-  text += "      esac ;;\n  esac\n}\ncompdef _PROGRAM PROGRAM\n";
+  // As a file of the function path its first call runs all of it; else it is sourced.
+  text +=
+      "      esac ;;\n  esac\n}\n"
+      "if [[ $funcstack[1] == _PROGRAM ]]; then\n  _PROGRAM \"$@\"\nelse\n"
+      "  compdef _PROGRAM PROGRAM\nfi\n";
   return replaced(text, "PROGRAM", tree.program.name);
 }
 

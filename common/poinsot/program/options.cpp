@@ -149,12 +149,13 @@ void add_bus_options(CLI::App& app, BusFlags& flags) {
                  "POINSOT_PARTITION, or none]")
       ->envname("POINSOT_PARTITION")
       ->type_name("NAME");
-  app.add_option("--discovery-server", flags.discovery_server,
-                 "meet others at this Fast DDS discovery server instead of by greeting "
-                 "[environment variable POINSOT_DISCOVERY_SERVER]")
+  app.add_option(
+         "--discovery-server", flags.discovery_server,
+         "meet others at this Fast DDS discovery server, ADDRESS:PORT, instead of by greeting "
+         "[environment variable POINSOT_DISCOVERY_SERVER]")
       ->check(CLI::Validator(check_server, "", "server"))
       ->envname("POINSOT_DISCOVERY_SERVER")
-      ->type_name("ADDRESS:PORT");
+      ->type_name("SERVER");
 }
 
 void add_verbose_option(CLI::App& app, int& verbosity) {

@@ -1,6 +1,7 @@
 #include "poinsot/wire/participant.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/log/Log.hpp>
@@ -103,10 +104,10 @@ std::vector<std::string> WorldDirectory::worlds() const {
   return {names.begin(), names.end()};
 }
 
-void WorldDirectory::on_publisher_discovery(dds::DomainParticipant* self,
+void WorldDirectory::on_publisher_discovery(dds::DomainParticipant* participant,
                                             rtps::WriterDiscoveryInfo&& info) {
-  // A participant hears of its own writers as well.
-  if (self != nullptr && info.info.guid().guidPrefix == self->guid().guidPrefix) return;
+  // The library tells of the participant's own writers, too.
+  if (info.info.guid().guidPrefix == participant->guid().guidPrefix) return;
   const std::string world = world_of(info.info.topicName().c_str());
   if (world.empty() || !is_in(partition_, info.info)) return;
   const std::lock_guard lock(mutex_);
@@ -157,7 +158,10 @@ BusCore::BusCore(const BusOptions& options) : directory_(options.partition) {
   factory->load_profiles();  // FASTRTPS_DEFAULT_PROFILES_FILE becomes the default
   dds::DomainParticipantQos qos = factory->get_default_participant_qos();
   set_participant_qos(options, qos);
-  // Another library of this process, or another thread, may have taken a number.
+  // One thread at a time: a number is looked up, then taken. Another library of this process may
+  // have taken it all the same.
+  static std::mutex joining;
+  const std::lock_guard lock(joining);
   constexpr std::size_t kAttempts = 4;
   const std::vector<int> numbers = free_numbers(*factory);
   for (std::size_t i = 0; i < std::min(kAttempts, numbers.size()) && participant_ == nullptr; ++i) {

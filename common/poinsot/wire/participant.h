@@ -21,7 +21,9 @@ struct BusOptions {
   int domain = kDefaultDomain;  // 0 … kMaxDomain
   bool lan = false;             // false: this host only
   std::size_t bodies = 0;       // that this side publishes: sizes the shared-memory segment
-  std::string partition = {};   // DDS partition: who has another one is not met; empty: none
+  bool commands_only =
+      false;  // all that this side reads is small: what claims not to be is dropped
+  std::string partition = {};  // DDS partition: who has another one is not met; empty: none
   // "host:port" of a discovery server (`fastdds discovery`), which makes participants known to one
   // another instead of greetings; empty: none.
   std::string discovery_server = {};
@@ -46,7 +48,7 @@ class Participant {
   Participant(Participant&&) noexcept;
   Participant& operator=(Participant&&) noexcept;
 
-  // World names of the daemons discovered so far, sorted. Discovery is asynchronous.
+  // World names of the other daemons discovered so far, sorted. Discovery is asynchronous.
   std::vector<std::string> worlds() const;
 
   // What follows poinsot/<world>/poses/ in the names of topics that somebody reads, sorted, each

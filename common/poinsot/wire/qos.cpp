@@ -12,6 +12,8 @@
 #include "poinsot/base/check.h"
 #include "poinsot/base/error.h"
 #include "poinsot/base/limits.h"
+#include "poinsot/wire/packet_check.h"
+#include "poinsot/wire/packet_guard.h"
 #include "poinsot/wire/queue_number.h"
 
 namespace poinsot {
@@ -150,7 +152,8 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
   shared_memory->segment_size(segment_size(options.bodies));
   shared_memory->max_message_size(kMaxMessage);
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {udp, shared_memory};
+  qos.transport().user_transports = {
+      guarded(udp, options.commands_only ? kMaxCommandSample : kMaxSample), shared_memory};
 
   // Discovery goes over UDP alone, data over either: shared memory under a number of our own.
   auto& wire = qos.wire_protocol();

@@ -1,8 +1,8 @@
 // What of the collision layer crosses frames, as bytes and back (base/archive.h).
 //
 // What follows from the scene, and what every frame makes anew before it looks at it, is left out:
-// islands, steps, solvers and searches start from the records. Pairs depend on the boxes alone, so
-// that the tree is built from these.
+// islands, steps, solvers and searches start from the records. The broad phase is built from the
+// boxes: its pairs depend on nothing else.
 
 #include <algorithm>
 
@@ -54,19 +54,6 @@ void PairStore::archive(Archive& with, std::span<const Collider> colliders) {
     }
   }
   if constexpr (Archive::kReads) index();
-}
-
-template <class Archive>
-void BroadPhase::archive(Archive& with) {
-  for (int i = 0; i < static_cast<int>(body_.size()); ++i) {
-    bool moves = !tree_.is_idle(i);
-    with(moves);
-    if constexpr (Archive::kReads) set_moves(i, moves);
-  }
-  for (Plane& plane : planes_) {
-    with(plane.normal, plane.offset);
-    if constexpr (Archive::kReads) touch(plane.collider);
-  }
 }
 
 // Courses of other stamps are not looked at again.
@@ -146,11 +133,9 @@ void FrameMotion::archive(Archive& with) {
   for (const std::size_t n : {world.ids.size(), state_.colliders.size(), world.scene_systems})
     agree(n);
   for (const BodyId id : world.ids) agree(id.generation);
-  if (shapes_changed_) fit_to_shapes();
-  with(state_, broad_phase_);
+  with(state_);
   if constexpr (Archive::kReads) {
-    for (std::size_t c = 0; c < state_.bound.size(); ++c)
-      broad_phase_.set(static_cast<int>(c), state_.bound[c]);
+    fit_to_shapes();
     for (IslandMotion& motion : motions_) motion.worker().prepare(world);  // of tethers
   }
   sleep_.archive(with, state_);

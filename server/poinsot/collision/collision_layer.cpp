@@ -111,7 +111,7 @@ EnergyBalance CollisionLayer::energy_balance() {
   if (scale_is_old_) energy_scale_.widen(now);
   scale_is_old_ = false;
   const double kinetic = kinetic_energy(now);
-  energy_scale_.see(kinetic + tether_energy(now));  // what clients do may be larger than the scene
+  energy_scale_.see(kinetic);
   const double energy = kinetic + potential_energy(now);
   const double scale = energy_scale_.value();
   return {energy, scale > 0 ? (energy - expected_energy()) / scale : 0};
@@ -157,6 +157,7 @@ void CollisionLayer::take_as_given(double energy) {
 
 void CollisionLayer::set_tethers(std::span<const Tether> tethers) {
   frame_->motion.set_tethers(tethers);
+  energy_scale_.see(tether_energy(std::as_const(*this).world()));  // it is a part of what flows
 }
 
 template <class Archive>

@@ -42,8 +42,9 @@ int ContactStep::local(const CollisionState& state, Eigen::Index column) {
   const World& world = state.world();
   double travel = 0;
   if (state.is_awake(column)) {
-    const SpeedBound bound = driven_bound(world, column, {}, h_).speed;
-    travel = h_ * (bound.v + state.arm[static_cast<std::size_t>(column)] * bound.omega);
+    const DrivenBound bound = driven_bound(world, column, {}, h_);
+    travel = h_ * (std::min(bound.speed.v, bound.path / h_) +
+                   state.arm[static_cast<std::size_t>(column)] * bound.speed.omega);
   } else if (world.is_kinematic(column)) {
     travel =
         h_ * (linear_velocity(world, column).norm() +

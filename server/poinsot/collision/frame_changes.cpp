@@ -44,6 +44,7 @@ void FrameMotion::set_state(Eigen::Index i, const Pose& pose, const Velocity& ve
 
 // Pairs that stand are looked at again: what the kick presses together meets, with an impact.
 void FrameMotion::kick(Eigen::Index i, const Wrench& impulse) {
+  if (!state_.world().moves(i)) return;  // frozen, if it was a dynamic one
   sleep_.wake(state_, i);
   state_.simulation.kick(i, impulse);
   state_.change_course(i);

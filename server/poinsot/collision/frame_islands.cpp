@@ -297,7 +297,17 @@ void FrameMotion::contact_forces(std::vector<ContactForce>& forces) const {
   }
 }
 
+// Digests of their own do not wait for one another.
 void FrameMotion::hash_into(Hash64& hash) const {
+  for (std::size_t c = 0; c < state_.bound.size(); ++c) {
+    Hash64 box;
+    box.add(std::span(state_.bound[c].low.data(), 3));
+    box.add(std::span(state_.bound[c].high.data(), 3));
+    box.add(state_.bounds_until[static_cast<std::size_t>(state_.colliders[c].body)]);
+    hash.add(box.value());
+  }
+  for (const double strain : strain_)
+    if (strain > 0) hash.add(strain);
   state_.pairs.hash_into(hash);
   sleep_.hash_into(hash);
   crowd_.hash_into(hash);

@@ -64,6 +64,7 @@ void FrameMotion::advance_to(double t_end, CollisionReport& report,
   report.contact_residual = 0;
   if (rests_ && !touched_ && std::isfinite(t_end) && t_end >= state_.world().time) {
     state_.simulation.commit(t_end, {});
+    if (state_.def.sleeping) sleep_.next_frame();
     return;
   }
   state_.simulation.begin(t_end);

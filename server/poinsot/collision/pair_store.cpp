@@ -115,15 +115,34 @@ std::uint64_t digest_of(const PairContact& contact) {
   return hash.value() | 1;
 }
 
+// What the last search for an impact found, and where the next one begins.
+std::uint64_t digest_of_search(const PairRecord& record) {
+  Hash64 hash;
+  hash.add(static_cast<std::uint64_t>(record.pair.a) << 32 |
+           static_cast<std::uint32_t>(record.pair.b));
+  hash.add(record.safe_until);
+  hash.add(static_cast<std::uint64_t>(record.meeting));
+  for (const double x : record.memory.axis) hash.add(x);
+  if (record.meeting == Meeting::none) return hash.value();
+  for (const Vec3* v : {&record.normal, &record.point})
+    for (const double x : *v) hash.add(x);
+  return hash.value();
+}
+
 }  // namespace
 
 void PairStore::hash_into(Hash64& hash) const {
   for (const PairRecord& record : records_) {
+    if (!record.standing && (record.safe_until > -std::numeric_limits<double>::infinity() ||
+                             !record.memory.axis.isZero(0)))
+      hash.add(digest_of_search(record));
     const PairContact* contact = find_contact(record);
     if (record.crowd_contact >= 0) {
       hash.add(static_cast<std::uint64_t>(record.pair.a) << 32 |
                static_cast<std::uint32_t>(record.pair.b));
-      crowd_contacts_[static_cast<std::size_t>(record.crowd_contact)].hash_into(hash);
+      Hash64 contact_hash;  // does not wait for those before it
+      crowd_contact(record).hash_into(contact_hash);
+      hash.add(contact_hash.value());
     }
     if (!record.standing && (contact == nullptr || contact->points.empty())) continue;
     hash.add(static_cast<std::uint64_t>(record.pair.a) << 32 |

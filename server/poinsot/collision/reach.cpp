@@ -59,10 +59,10 @@ Aabb reach_box(CollisionState& state, const Collider& collider, double from, dou
     omega = state.simulation.is_in_flight(i) ? state.simulation.turning(i, from).omega
                                              : driven_bound(world, i, {}, h).speed.omega;
   } else {
-    const SpeedBound speed = driven_bound(world, i, {}, h).speed;
-    low = Vec3::Constant(-h * speed.v);
-    high = -low;
-    omega = speed.omega;
+    const DrivenBound bound = driven_bound(world, i, {}, h);
+    high = Vec3::Constant(std::min(h * bound.speed.v, bound.path));
+    low = -high;
+    omega = bound.speed.omega;
   }
   const double turn = std::min(2.0, omega * h) * arm;
   box.low = (box.low.array() - turn).max(pose.c.array() - arm).matrix() + low;
@@ -76,8 +76,8 @@ double fastest_point(const CollisionState& state, Eigen::Index i, double duratio
   const World& world = state.world();
   const double arm = state.arm[static_cast<std::size_t>(i)];
   if (state.is_awake(i)) {
-    const SpeedBound speed = driven_bound(world, i, {}, duration).speed;
-    return speed.v + arm * speed.omega;
+    const DrivenBound bound = driven_bound(world, i, {}, duration);
+    return std::min(bound.speed.v, bound.path / duration) + arm * bound.speed.omega;
   }
   if (world.is_kinematic(i))
     return linear_velocity(world, i).norm() + arm * angular_velocity(world, i).norm();

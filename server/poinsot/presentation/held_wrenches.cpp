@@ -78,6 +78,7 @@ void HeldWrenches::accept(std::span<const WrenchCommand> commands, const World& 
     if (auto refusal = take(command, moment, reply)) {
       reply.code = refusal->code;
       reply.message = std::move(refusal->reason);
+      reply.first_frame = reply.last_frame = 0;
     }
   }
   sweep(next);  // what was replaced before it began

@@ -22,7 +22,6 @@ class LivingScene {
 
   const Scene& now() const { return *scene_; }
   const Scene& original() const { return *original_; }
-  std::shared_ptr<const Scene> share_original() const { return original_; }
   // The scene as it is now, never to be changed.
   std::shared_ptr<const Scene> share() const;
 

@@ -138,8 +138,8 @@ std::optional<Refusal> PresentationLayer::restore(const Order& order) {
     const auto names = ring_.names();
     if (names.empty()) return Refusal{ResultCode::not_found, "no checkpoint is in memory"};
     std::string reason = "no checkpoint '" + name + "' is in memory; there are";
-    for (const std::string_view known : names)
-      reason.append(reason.back() == 'e' ? " " : ", ").append(known);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      reason.append(k == 0 ? " " : ", ").append(names[k]);
     return Refusal{ResultCode::not_found, std::move(reason)};
   }
   try {

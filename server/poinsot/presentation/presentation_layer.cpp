@@ -147,8 +147,11 @@ void PresentationLayer::contacts(ContactSnapshot& contacts) const {
   contacts.left_out = static_cast<std::uint32_t>(contact_forces_.size() - told);
   contacts.contacts.clear();
   const auto id = [this](int i) { return world().ids[static_cast<std::size_t>(i)]; };
+  // The one that the force is told of moves.
   for (const ContactForce& c : std::span(contact_forces_).first(told))
-    contacts.contacts.push_back({id(c.a), id(c.b), c.point, c.normal, c.force});
+    contacts.contacts.push_back(world().moves(c.a)
+                                    ? ContactState{id(c.a), id(c.b), c.point, c.normal, c.force}
+                                    : ContactState{id(c.b), id(c.a), c.point, -c.normal, -c.force});
 }
 
 void PresentationLayer::held(HeldList& list) const {

@@ -42,8 +42,6 @@ class PresentationLayer {
   Reply obey(const Order& order);
   // What was last saved by save.
   std::shared_ptr<const Checkpoint> last_saved() const { return ring_.newest(); }
-  // Of this name in memory, or of no name the newest: what restore would go back to.
-  std::shared_ptr<const Checkpoint> saved(std::string_view name) const { return ring_.find(name); }
   // All that a continuation needs, now. Named by frame and epoch.
   std::shared_ptr<const Checkpoint> make_checkpoint(std::string name) const;
   // Goes on from there, in the next epoch. Throws Error if the bytes are damaged; the run is then
@@ -67,8 +65,6 @@ class PresentationLayer {
   double time() const { return collision_.time(); }                      // [s] frame / frame_rate
   // As it is now, with absent bodies: places that nobody has. In the order of the slots.
   const Scene& scene() const { return scene_.now(); }
-  // As it was given: what a reset goes back to.
-  std::shared_ptr<const Scene> original_scene() const { return scene_.share_original(); }
   const World& world() const { return collision_.world(); }
 
   // The dynamic bodies at the end of the last frame, with its hash. session and publish_time_ns are

@@ -2,8 +2,7 @@
 // again and compared bit for bit (replay.h). Text, one JSON object per line:
 //
 //   {"poinsot_log": 1, "build": …, "world": …, "frame": 120, "epoch": 1, "hash": "16 hex digits",
-//    "checkpoint": "base64", "original": "base64"}       the first line: where the log begins, and
-//                                                        the scene that resets go back to
+//    "checkpoint": "base64"}                             the first line: where the log begins
 //   {"before": 121, "epoch": 1, "wrenches": […], "orders": […]}        a turn that had commands
 //   {"checkpoint": 1, "bytes": "base64"}      before the first restore of it: "checkpoint": 1 there
 //   {"frame": 121, "hash": "0123456789abcdef"}                         a frame that was advanced to
@@ -32,7 +31,6 @@ namespace poinsot {
 struct LogStart {
   std::filesystem::path file;
   std::string world;
-  std::shared_ptr<const Scene> original;         // PresentationLayer::original_scene()
   std::shared_ptr<const Checkpoint> checkpoint;  // of the run now, before the first entry
   bool replace = false;                          // a file of this name; else it is refused
 };
@@ -40,7 +38,7 @@ struct LogStart {
 // Writes a log on a thread of its own. The loop only moves entries into a bounded queue; a full
 // disk or a full queue ends the recording with a reason that can be asked for, and the run goes on.
 //
-//   CommandLogWriter log({file, world, layer.original_scene(), layer.make_checkpoint("")});
+//   CommandLogWriter log({file, world, layer.make_checkpoint("")});
 //   TurnRecord turn{.before = layer.frame() + 1, .epoch = layer.epoch(), …};
 //   apply_turn(turn, layer, replies);
 //   log.turn(std::move(turn));  // after what it says is done, before the next frame

@@ -2,13 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "poinsot/base/archive.h"
 #include "poinsot/runner/base64.h"
 #include "poinsot/runner/build_identity.h"
 #include "poinsot/runner/checkpoint_file.h"
 #include "poinsot/runner/command_json.h"
 #include "poinsot/runner/hash_text.h"
-#include "poinsot/scene/scene_archive.h"
 
 namespace poinsot {
 namespace {
@@ -24,19 +22,13 @@ std::string line(const Json& json) {
 
 std::string LogLines::first(const LogStart& start) {
   const Checkpoint& checkpoint = *start.checkpoint;
-  Json json = {{"poinsot_log", kLogFormat},
+  return line({{"poinsot_log", kLogFormat},
                {"build", build_identity()},
                {"world", start.world},
                {"frame", checkpoint.frame},
                {"epoch", checkpoint.epoch},
                {"hash", hash_text(checkpoint.state_hash)},
-               {"checkpoint", to_base64(checkpoint_bytes(checkpoint))}};
-  if (start.original != checkpoint.scene) {
-    ByteWriter out;
-    out(*start.original);
-    json["original"] = to_base64(out.bytes());
-  }
-  return line(json);
+               {"checkpoint", to_base64(checkpoint_bytes(checkpoint))}});
 }
 
 void LogLines::add(const TurnRecord& turn, std::string& text) {

@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "poinsot/base/archive.h"
 #include "poinsot/base/error.h"
 #include "poinsot/runner/base64.h"
 #include "poinsot/runner/checkpoint_file.h"
@@ -14,7 +13,6 @@
 #include "poinsot/runner/hash_text.h"
 #include "poinsot/runner/log_lines.h"
 #include "poinsot/scene/fragment.h"
-#include "poinsot/scene/scene_archive.h"
 
 namespace poinsot {
 namespace {
@@ -83,24 +81,12 @@ CommandLogReader::CommandLogReader(const std::filesystem::path& file)
                .epoch = whole<std::uint32_t>(json.at("epoch")),
                .hash = hash_of(json.at("hash"))};
     start_ = json.at("checkpoint").get<std::string>();
-    original_ = json.value("original", "");
     return 0;
   });
 }
 
 std::shared_ptr<const Checkpoint> CommandLogReader::start() const {
   return checkpoint_from(from_base64(start_), name_ + ":1");
-}
-
-std::shared_ptr<const Scene> CommandLogReader::original() const {
-  if (original_.empty()) return start()->scene;
-  return checked([&] {
-    const std::vector<std::byte> bytes = from_base64(original_);
-    ByteReader in(bytes);
-    auto scene = std::make_shared<Scene>();
-    in(*scene);
-    return std::shared_ptr<const Scene>(std::move(scene));
-  });
 }
 
 std::optional<LogEntry> CommandLogReader::next() {

@@ -34,8 +34,6 @@ class CommandLogReader {
   const Header& header() const { return header_; }
   // Where the log begins. Throws Error if its bytes are damaged or of another build.
   std::shared_ptr<const Checkpoint> start() const;
-  // The scene that resets go back to; of the same build as start(), which is to be asked first.
-  std::shared_ptr<const Scene> original() const;
 
   // The next entry, with all that it takes to repeat it: the bodies of a spawn are read, the
   // checkpoint of a restore is there. Nothing: the end, be it that of the run or a cut.
@@ -57,7 +55,7 @@ class CommandLogReader {
   std::ifstream stream_;
   std::uint64_t line_ = 0;
   Header header_;
-  std::string start_, original_;  // base64
+  std::string start_;  // base64
   std::map<std::uint64_t, std::shared_ptr<const Checkpoint>> checkpoints_;
   bool cut_ = false;
   bool ended_ = false;

@@ -17,19 +17,14 @@ std::uint32_t later(std::uint32_t epoch, std::uint32_t epochs_later) {
   return epoch == 0 ? 0 : epoch + epochs_later;  // 0: whichever runs
 }
 
-// The number of threads is in the scene; no bit depends on it.
-std::shared_ptr<const Scene> with_threads(const std::shared_ptr<const Scene>& scene, int threads) {
-  if (threads == 0 || scene->collision.threads == threads) return scene;
-  auto copy = std::make_shared<Scene>(*scene);
-  copy->collision.threads = threads;
-  return copy;
-}
-
+// The same checkpoint for another number of threads, which no bit depends on.
 std::shared_ptr<const Checkpoint> with_threads(const std::shared_ptr<const Checkpoint>& checkpoint,
                                                int threads) {
   if (threads == 0 || checkpoint->scene->collision.threads == threads) return checkpoint;
+  auto scene = std::make_shared<Scene>(*checkpoint->scene);
+  scene->collision.threads = threads;
   auto copy = std::make_shared<Checkpoint>(*checkpoint);
-  copy->scene = with_threads(checkpoint->scene, threads);
+  copy->scene = std::move(scene);
   return copy;
 }
 
@@ -50,7 +45,10 @@ void LogPlayer::play(TurnRecord turn) {
   turn.before = layer_.frame() + 1;
   turn.epoch = layer_.epoch();
   for (WrenchCommand& wrench : turn.wrenches) wrench.epoch = later(wrench.epoch, epochs_later_);
-  for (Order& order : turn.orders) order.control.epoch = later(order.control.epoch, epochs_later_);
+  for (Order& order : turn.orders) {
+    order.control.epoch = later(order.control.epoch, epochs_later_);
+    if (order.checkpoint) order.checkpoint = with_threads(order.checkpoint, threads_);
+  }
   replies_.clear();
   apply_turn(turn, layer_, replies_);
   commands_ += replies_.size();
@@ -62,7 +60,7 @@ ReplayResult replay(const std::filesystem::path& file, const ReplayOptions& opti
                     std::stop_token stop) {
   CommandLogReader log(file);
   const auto start = with_threads(log.start(), options.threads);
-  PresentationLayer layer(*with_threads(log.original(), options.threads));
+  PresentationLayer layer(*start->scene);
   layer.restore(*start);
   std::optional<Trajectory> trajectory;
   if (!options.trajectory.empty()) {
@@ -71,7 +69,7 @@ ReplayResult replay(const std::filesystem::path& file, const ReplayOptions& opti
   }
 
   ReplayResult result;
-  LogPlayer player(log, layer);
+  LogPlayer player(log, layer, options.threads);
   Elapsed elapsed;
   {
     const Stopwatch::Lap lap(elapsed);

@@ -32,7 +32,6 @@ class OfflineRun {
     if (!options.record.empty()) {
       record_.emplace(LogStart{.file = options.record,
                                .world = layer_.scene().world,
-                               .original = layer_.original_scene(),
                                .checkpoint = layer_.make_checkpoint(""),
                                .replace = true});
       if (player_) player_->record_to(&*record_);

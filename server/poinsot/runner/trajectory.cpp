@@ -38,9 +38,19 @@ std::string csv_field(std::string_view text) {
 Trajectory::Trajectory(const std::filesystem::path& file, const World& world, double frame_rate)
     : name_(file.string()), file_(std::fopen(name_.c_str(), "wb")), frame_rate_(frame_rate) {
   if (!file_) throw Error("--trajectory: cannot create '" + name_ + "': " + std::strerror(errno));
-  for (const std::string& name : world.names) bodies_.push_back(csv_field(name));
+  follow(world);
   rows_ = "frame,time,body,px,py,pz,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n";
   if (std::fwrite(rows_.data(), 1, rows_.size(), file_.get()) != rows_.size()) error_ = errno;
+}
+
+void Trajectory::follow(const World& world) {
+  names_.resize(world.names.size());
+  bodies_.resize(world.names.size());
+  for (std::size_t k = 0; k < names_.size(); ++k)
+    if (names_[k] != world.names[k]) {
+      names_[k] = world.names[k];
+      bodies_[k] = csv_field(names_[k]);
+    }
 }
 
 void Trajectory::write(const World& world, std::uint64_t frame) {
@@ -48,8 +58,10 @@ void Trajectory::write(const World& world, std::uint64_t frame) {
   append(start, static_cast<double>(frame) / frame_rate_);
   start += ',';
 
+  follow(world);
   rows_.clear();
   for (Eigen::Index i = 0; i < world.size(); ++i) {
+    if (world.is_absent(i)) continue;
     const Pose pose = body_pose(world, i);
     const Vec3 v = linear_velocity(world, i);
     const Vec3 omega = angular_velocity(world, i);

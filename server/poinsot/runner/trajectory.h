@@ -1,5 +1,6 @@
-// Trajectory: a run as a table (CSV), without loss. One row per frame, from frame 0, and body, in
-// the order of the scene file, static bodies included:
+// Trajectory: a run as a table (CSV), without loss. One row per frame, from frame 0, and body that
+// is there, in the order of the scene file, static bodies included; spawned ones take the places of
+// those that were removed, or follow:
 //
 //   frame,time,body,px,py,pz,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
 //
@@ -42,8 +43,11 @@ class Trajectory {
 
   std::string name_;
   std::unique_ptr<std::FILE, Closer> file_;
-  double frame_rate_;                // [Hz]
-  std::vector<std::string> bodies_;  // as fields
+  double frame_rate_;  // [Hz]
+  void follow(const World& world);
+
+  std::vector<std::string> names_;   // of who was there in the last frame …
+  std::vector<std::string> bodies_;  // … as fields
   std::string rows_;                 // of one frame, reused
   int error_ = 0;                    // errno of the first failure
 };

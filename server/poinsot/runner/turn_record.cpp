@@ -19,7 +19,7 @@ void apply_turn(TurnRecord& turn, PresentationLayer& layer, std::vector<Reply>& 
     });
     accept(static_cast<std::size_t>(first_behind - left.begin()));
     if (control.action == ControlAction::restore && !order.checkpoint)
-      order.checkpoint = layer.saved(control.name);
+      order.checkpoint = layer.find_checkpoint(control.name);
     replies.push_back(layer.obey(order));
   }
   accept(left.size());

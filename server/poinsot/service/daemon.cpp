@@ -28,6 +28,7 @@ BusOptions prepare_bus(const DaemonOptions& options, std::size_t bodies, const L
   return {.domain = options.domain,
           .lan = options.lan,
           .bodies = bodies,
+          .commands_only = true,
           .partition = options.partition,
           .discovery_server = options.discovery_server};
 }

@@ -72,7 +72,6 @@ void FrameLoop::record(const RunControl& control) {
 
 std::shared_ptr<CommandLogWriter> FrameLoop::begin_recording(const std::string& name) {
   LogStart start;
-  start.original = layer_.original_scene();
   start.checkpoint = layer_.make_checkpoint("");
   auto log = options_.store.log(name, std::move(start));
   recording_.begin(name, log, layer_.frame() + 1, layer_.epoch());

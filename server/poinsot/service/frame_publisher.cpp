@@ -11,6 +11,8 @@ namespace {
 
 // How long a new reader of poses may go unnoticed while no frame is advanced.
 constexpr std::chrono::milliseconds kLookForReaders{100};
+// How long a reader has to be told, again if need be, that a body is gone.
+constexpr std::chrono::seconds kRemembered{10};
 
 }  // namespace
 
@@ -59,7 +61,7 @@ void FramePublisher::send(bool quiet) {
     send_scene();
     send_impacts();
     send_contacts();
-    send_held();
+    send_held(quiet);
     send_poses(quiet);
     if (has_report) write_report();
     // Last: who reads a reply finds the frame and the report that it speaks of.
@@ -80,11 +82,15 @@ void FramePublisher::write_report() {
 }
 
 void FramePublisher::send_scene() {
+  forget_removed();
   if (!outbox_.take(change_)) return;
   for (const BodyId id : change_.removed) {
     BodyInfo gone;
+    gone.session = session_;
     gone.id = id;
-    scene_topic_.remove(gone);  // unknown if it went before it was sent
+    gone.removed = true;
+    write(scene_topic_, gone);
+    removed_.push_back({std::chrono::steady_clock::now(), gone});
     std::erase_if(bodies_, [id](const NamedBody& body) { return body.id == id; });
   }
   for (BodyInfo& body : change_.added) {
@@ -96,18 +102,24 @@ void FramePublisher::send_scene() {
   streams_.set_bodies(bodies_);
 }
 
+// Late joiners need not hear of bodies that have long been gone.
+void FramePublisher::forget_removed() {
+  const auto now = std::chrono::steady_clock::now();
+  for (; !removed_.empty() && now - removed_.front().first > kRemembered; removed_.pop_front())
+    scene_topic_.forget(removed_.front().second);
+}
+
 void FramePublisher::send_poses(bool quiet) {
   of_poses_.look(poses_topic_.readers());
   streams_.look();
   outbox_.set_poses_wanted(of_poses_.readers > 0 || streams_.any());
-  for (; (of_poses_.readers > 0 || streams_.any()) && outbox_.take(snapshot_);
-       of_poses_.joined = false) {
+  while ((of_poses_.readers > 0 || streams_.any()) && outbox_.take(snapshot_)) {
     if (of_poses_.readers > 0) write_poses();
     streams_.send(snapshot_);
   }
   // Again, if nothing newer comes soon; while frames come, other readers would get one twice.
   if (!quiet || snapshot_.epoch == 0) return;
-  if (of_poses_.readers > 0 && std::exchange(of_poses_.joined, false)) write_poses();
+  if (of_poses_.is_new()) write_poses();
   streams_.send(snapshot_);
 }
 
@@ -133,11 +145,11 @@ void FramePublisher::send_contacts() {
   write(contacts_topic_, contacts_);
 }
 
-void FramePublisher::send_held() {
+void FramePublisher::send_held(bool quiet) {
   of_held_.look(held_topic_.readers());
   outbox_.set_held_wanted(of_held_.readers > 0);
   const bool is_new = outbox_.take(held_);
-  const bool again = of_held_.joined && held_.epoch != 0;
+  const bool again = (of_held_.joined || (quiet && of_held_.is_new())) && held_.epoch != 0;
   if (of_held_.readers == 0 || !(is_new || again)) return;
   of_held_.joined = false;
   held_.session = session_;

@@ -7,7 +7,10 @@
 
 #pragma once
 
+#include <chrono>
+#include <chrono>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -42,9 +45,10 @@ class FramePublisher {
   void write_poses();
   void write_report();
   void send_scene();
+  void forget_removed();
   void send_impacts();
   void send_contacts();
-  void send_held();
+  void send_held(bool quiet);
   template <class Message>
   void write(Publisher<Message>& topic, const Message& message);
 
@@ -65,14 +69,24 @@ class FramePublisher {
   RunReport report_;
   SceneChange change_;
   std::vector<NamedBody> bodies_;  // that there are
+  std::deque<std::pair<std::chrono::steady_clock::time_point, BodyInfo>> removed_;
   ContactSnapshot contacts_;
   HeldList held_;
-  // Readers at the last look, and whether one joined since the newest was written.
+  // Readers at the last look, and whether one joined since the newest was written. A reader that
+  // we have met may not have met us yet and miss what is written now: for a second it is new.
   struct Audience {
+    using Clock = std::chrono::steady_clock;
+
     int readers = 0;
     bool joined = false;
+    Clock::time_point new_until = {};
 
-    void look(int now) { joined |= now > std::exchange(readers, now); }
+    void look(int now) {
+      if (now <= std::exchange(readers, now)) return;
+      joined = true;
+      new_until = Clock::now() + std::chrono::seconds(1);
+    }
+    bool is_new() const { return readers > 0 && Clock::now() < new_until; }
   };
   Audience of_poses_, of_contacts_, of_held_;
   // Samples written of each topic.

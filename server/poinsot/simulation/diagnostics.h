@@ -15,11 +15,11 @@ double potential_energy(const World& world, Eigen::Index i);
 
 // Scale for the relative energy error [J]: Σ m |g| (height above the lowest body + radius of
 // gyration) at the start, plus the largest kinetic energy seen and the springs' energy at the
-// start.
+// start. What tethers hold when they are set counts as kinetic energy seen.
 class EnergyScale {
  public:
   explicit EnergyScale(const World& world);
-  void see(double kinetic) {
+  void see(double kinetic) {  // or what may become kinetic: of tethers
     largest_kinetic_ = kinetic > largest_kinetic_ ? kinetic : largest_kinetic_;
   }
   // Bodies came, went or were moved: at least what the scale would be if it started now.

@@ -70,9 +70,12 @@ Method Integration::by_tolerance(const EmbeddedPair& pair, Method method, double
     return method;
   memory.stiff = true;
   work.rosenbrock.prepare(system.size());
-  if (work.rosenbrock.advance(system, work.state, duration, std::max(tolerance, kImplicit),
-                              kMostSteps, memory, error, done))
-    return Method::rosenbrock;
+  // What takes too many steps goes on at a looser tolerance; the error tells.
+  for (const double loose : {1.0, 1e3, 1e6})
+    if (work.rosenbrock.advance(system, work.state, duration,
+                                loose * std::max(tolerance, kImplicit), kMostSteps, memory, error,
+                                done))
+      return Method::rosenbrock;
   error = {};
   // Nothing can follow this motion: the body is frozen where it was.
   work.state.setConstant(std::numeric_limits<double>::quiet_NaN());

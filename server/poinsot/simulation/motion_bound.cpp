@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace poinsot {
 namespace {
@@ -162,6 +163,20 @@ Push largest_pull(const World& world, const BodySystem& system, int place, doubl
   return pull;
 }
 
+// How far tethers let the centre of mass of a body of such a system go [m].
+double longest_path(const World& world, Eigen::Index i, const BodySystem& system, int place,
+                    double s) {
+  double path = std::numeric_limits<double>::infinity();
+  for (const int index : system.springs_of[static_cast<std::size_t>(place)]) {
+    const SpringLink& spring = system.springs[static_cast<std::size_t>(index)];
+    if (!spring.isotropic || !(spring.stiffness > 0)) continue;
+    const Vec3 x = position(world.y, i) + orientation(world.y, i) * spring.p_a;
+    path = std::min(
+        path, (x - spring.p_b).norm() + s / std::sqrt(spring.stiffness) + 2 * spring.p_a.norm());
+  }
+  return path * kRounding;
+}
+
 }  // namespace
 
 DrivenBound driven_bound(const World& world, Eigen::Index i, std::span<const Wrench> contacts,
@@ -178,6 +193,7 @@ DrivenBound driven_bound(const World& world, Eigen::Index i, std::span<const Wre
     const double s = coupled_energy(world, system, h, contacts);
     bound.speed = {s * std::sqrt(inv_mass), s / std::sqrt(smallest_moment(world, i))};
     pull = largest_pull(world, system, world.place_of[k], s);
+    bound.path = longest_path(world, i, system, world.place_of[k], s);
   }
   Vec3 force = held.in_W.force;
   if (!contacts.empty()) force += contacts[k].force;

@@ -15,10 +15,13 @@
 //
 // Driven bodies (speed_bound): with S = sqrt(2 (T + U)) of bodies coupled by springs,
 //   S(t + h) ≤ S(t) + h sqrt(Σ |F|²/m + |τ|²/J₁),   |v| ≤ S/√m,   |ω| ≤ S/√J₁;
-// drag and damping only lower S. Source: README.md, section "Bounds".
+// drag and damping only lower S. The point p of a tether is never farther than S/√k from its end,
+// so that c moves no farther than S/√k + |x_p − target| + 2 |p|. Source: README.md, section
+// "Bounds".
 
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -65,8 +68,9 @@ struct SpeedBound {
 // in W about c; empty: none act.
 struct DrivenBound {
   SpeedBound speed;
-  Vec3 acceleration = Vec3::Zero();  // [m/s²] the part that is constant
-  double slack = 0;                  // [m/s²] of the rest
+  double path = std::numeric_limits<double>::infinity();  // [m] c moves no farther: tethers hold it
+  Vec3 acceleration = Vec3::Zero();                       // [m/s²] the part that is constant
+  double slack = 0;                                       // [m/s²] of the rest
   RotationBound rotation;
 };
 DrivenBound driven_bound(const World& world, Eigen::Index i, std::span<const Wrench> contacts,

@@ -444,9 +444,22 @@ double SimulationLayer::momentum_error() const {
 }
 
 void SimulationLayer::hash_into(Hash64& hash) const {
+  for (const BodyId id : world_.ids)
+    if (id.generation != 1) hash.add(std::uint64_t{id.slot} << 32 | id.generation);
+  for (const World::Kinematic& kinematic : world_.kinematic) {
+    if (kinematic.since == 0) continue;  // it goes on from where the scene put it
+    hash.add(kinematic.since);
+    for (const Vec3* v :
+         {&kinematic.start.c, &kinematic.velocity.linear, &kinematic.velocity.angular})
+      hash.add(std::span(v->data(), 3));
+    hash.add(std::span(kinematic.start.q.coeffs().data(), 4));
+  }
   for (std::size_t k = 0; k < methods_.size(); ++k) {
     hash.add(static_cast<std::uint64_t>(methods_[k]));
-    if (methods_[k] == Method::flight) flights_[k].hash_into(hash);
+    if (methods_[k] != Method::flight) continue;
+    Hash64 flight;  // digests of their own do not wait for one another
+    flights_[k].hash_into(flight);
+    hash.add(flight.value());
   }
   for (const auto* memories : {&memories_, &system_memories_})
     for (const StepMemory& memory : *memories) {

@@ -270,6 +270,25 @@ void TaylorSeries::find_scales(const System& system, double h) {
                                 resolution * resolution * body.c(0).squaredNorm(), kTiny}),
                   1 / std::max({first.m, h * h * second.m, kTiny})};
   }
+  work_scale_ = work_scale(system, h);
+}
+
+// Power is a product of velocities: its series decays half as fast as theirs, and has to be watched
+// by itself. Relative to the energy that may flow in h.
+double TaylorSeries::work_scale(const System& system, double h) const {
+  constexpr double kTiny = 1e-280;
+  double energy = 0;
+  bool damps = false;
+  for (std::size_t s = 0; s < system.springs.size(); ++s) {
+    const SpringLink& link = system.springs[s];
+    damps = damps || (link.isotropic && link.damping > 0);
+    energy += 0.5 * link.stiffness * springs_[s].d[0].squaredNorm();
+  }
+  if (!damps) return 0;
+  for (std::size_t i = 0; i < system.bodies.size(); ++i)
+    energy += 0.5 * system.bodies[i].mass *
+              std::max(kernels_.squares(series_[i].at[0]).v, h * h * series_[i].squares.v);
+  return 1 / std::max(energy * energy, kTiny);
 }
 
 // The square of the latest coefficients against their scales; a turn counts as it is [rad].
@@ -280,6 +299,10 @@ double TaylorSeries::squared_term(const System& system) const {
     const double v = square.v * scales_[i].v, m = square.m * scales_[i].m;
     if (!std::isfinite(square.R + v + m)) return std::numeric_limits<double>::infinity();
     largest = std::max({largest, square.R, v, m});
+    if (work_scale_ > 0) {
+      const double work = series_[i].at[static_cast<std::size_t>(order_)].c_W[3];
+      largest = std::max(largest, work * work * work_scale_);
+    }
   }
   return largest;
 }

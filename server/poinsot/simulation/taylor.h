@@ -82,6 +82,7 @@ class TaylorSeries {
   void start(const System& system, const SystemState& y);
   bool add_order(const System& system, int k);
   void find_scales(const System& system, double h);
+  double work_scale(const System& system, double h) const;
   double squared_term(const System& system) const;
   bool passed_standstill(const System& system, double h, const SystemState& y) const;
 
@@ -96,6 +97,7 @@ class TaylorSeries {
   std::vector<Body> series_;
   std::vector<Spring> springs_;
   std::vector<Scale> scales_;
+  double work_scale_ = 0;  // 1/[J]² of what isotropic springs damp; 0: none does
   int order_ = 0;
 };
 

@@ -144,8 +144,7 @@ TEST(StatusText, CountsIslandsSearchesImpactsAndSleepers) {
         "islands      2, 1 restarts, 12 impact searches\n",
         "solvers      5 bodies soft_step, 2 convex_newton in 31 iterations, 1 unconverged, "
         "residual 0.00025 m/s\n",
-        "impacts      3, 40 in all\n", "dropped      0 snapshots, 5 events\n",
-        "flags        crowded\n"})
+        "impacts      3, 40 in all\n", "dropped 0 snapshots, 5 events\n", "flags        crowded\n"})
     EXPECT_NE(text.find(line), std::string::npos) << text;
 }
 
@@ -163,6 +162,68 @@ TEST(ImpactLine, HasAsManyWordsAsItsTitle) {
 
 TEST(StatusText, ShowsNoMethodWhereNothingHasMoved) {
   EXPECT_NE(status_text("push_me", {}).find("methods      none yet\n"), std::string::npos);
+}
+
+TEST(StatusText, ShowsPaceLatenessClientsAndRecording) {
+  RunReport report;
+  report.time_scale = 2;
+  report.real_time_factor_window = 1.5;
+  report.lateness = {1e-5, 2e-4, 3e-3};
+  report.recording = "today";
+  report.held_wrenches = 4;
+  report.clients = {{.client = 0xAB, .held = 3, .accepted = 20, .refused = 2, .limited = 1},
+                    {.client = 0xCD, .alive = false}};
+  const std::string text = status_text("push_me", report);
+  for (const char* line :
+       {"1.500 over the last seconds, 2 asked for\n",
+        "lateness     p50 0.010, p99 0.200, max 3.000 ms; 0 overruns\n", "recording    today\n",
+        "held         4\n", "00000000000000ab alive         3         20          2          1\n",
+        "00000000000000cd gone "})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  report.time_scale = 0;
+  EXPECT_NE(status_text("push_me", report).find("as fast as it can"), std::string::npos);
+}
+
+TEST(ImpactLine, HasNoNegativeZeros) {
+  ImpactNotice impact = sample::impact();
+  impact.point = {-0.0, 1, -0.0};
+  EXPECT_NE(impact_line(impact, "a", "b").find(" a b 0 1 0 "), std::string::npos);
+}
+
+TEST(ContactLines, HaveAsManyWordsAsTheirTitleAndTheBodiesThatAreShown) {
+  ContactSnapshot contacts;
+  contacts.session = 7;
+  contacts.frame = 30;
+  contacts.contacts = {{sample::kBox, sample::kTable, {1, 2, 3}, {0, 0, 1}, {-0.0, 0, 9.81}},
+                       {sample::kBall, sample::kTable, {4, 5, 6}, {0, 0, 1}, {0, 0, 2}}};
+  const std::string one = contact_lines(contacts, Roster(sample::bodies(), {"box"}), 60);
+  EXPECT_EQ(one, "30 0.5 box table 1 2 3 0 0 1 0 0 9.81\n");
+  const std::string all = contact_lines(contacts, Roster(sample::bodies(), {}), 60);
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 2);
+  EXPECT_EQ(std::count(kContactLinesTitle.begin(), kContactLinesTitle.end(), ' '),
+            std::count(one.begin(), one.end(), ' ') + 1);
+}
+
+TEST(PushText, NamesAnImpulseAndATether) {
+  Reply reply;
+  reply.first_frame = reply.last_frame = 1;
+  WrenchCommand impulse;
+  impulse.body_name = "box";
+  impulse.kind = WrenchKind::impulse;
+  impulse.force = {0, 0, 2};
+  EXPECT_EQ(push_text(impulse, reply, 60),
+            "box: frame 1, 0.000 s to 0.017 s: impulse (0, 0, 2) N s at the centre of mass, world "
+            "axes\n");
+  WrenchCommand tether;
+  tether.body_name = "box";
+  tether.kind = WrenchKind::tether;
+  tether.target = {0, 0, 1};
+  tether.stiffness = 50;
+  tether.damping = 20;
+  reply.last_frame = kForever;
+  EXPECT_EQ(push_text(tether, reply, 60),
+            "box: frames 1 until cleared (from 0.000 s): tether to (0, 0, 1) m, 50 N/m, 20 N s/m, "
+            "at the centre of mass\n");
 }
 
 TEST(ListText, GivesNameMassAndShapeOfEachBody) {

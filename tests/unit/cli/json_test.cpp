@@ -82,6 +82,33 @@ TEST(PoseJson, HoldsTheWantedBodiesOnly) {
   EXPECT_EQ(frame["bodies"][0]["name"], "big ball");
 }
 
+TEST(PoseJson, SaysWhenOnlySomeBodiesWereSent) {
+  PoseSnapshot poses = sample::poses();
+  poses.complete = false;
+  EXPECT_EQ(poses_of(poses)["complete"], false);
+}
+
+TEST(ImpactJson, HasNoNegativeZeros) {
+  ImpactNotice impact = sample::impact();
+  impact.point = {-0.0, 1, -0.0};
+  EXPECT_EQ(parsed(impact_json(impact, "a", "b"))["point"].dump(), "[0.0,1.0,0.0]");
+}
+
+TEST(ContactsJson, HoldsTheContactsOfAFrame) {
+  ContactSnapshot contacts;
+  contacts.frame = 30;
+  contacts.epoch = 2;
+  contacts.left_out = 1;
+  contacts.contacts = {{sample::kBox, sample::kTable, {1, 2, 3}, {0, 0, 1}, {0, 0, 9.81}},
+                       {sample::kBall, sample::kTable, {4, 5, 6}, {0, 0, 1}, {0, 0, 2}}};
+  const json frame = parsed(contacts_json(contacts, Roster(sample::bodies(), {"box"}), 60));
+  EXPECT_EQ(keys(frame), (std::set<std::string>{"frame", "epoch", "time", "left_out", "contacts"}));
+  EXPECT_EQ(frame["time"], 0.5);
+  ASSERT_EQ(frame["contacts"].size(), 1u);
+  EXPECT_EQ(frame["contacts"][0]["a"], "box");
+  EXPECT_EQ(frame["contacts"][0]["force"], json({0.0, 0.0, 9.81}));
+}
+
 WrenchCommand push_of_the_box() {
   WrenchCommand command;
   command.body_name = "box";

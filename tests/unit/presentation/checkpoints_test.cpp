@@ -18,7 +18,7 @@ std::shared_ptr<Checkpoint> named(const std::string& name) {
 TEST(CheckpointRing, KeepsTheLastSixteenByName) {
   CheckpointRing ring;
   EXPECT_EQ(ring.newest(), nullptr);
-  for (int n = 0; n < 20; ++n) ring.add(named("c" + std::to_string(n)));
+  for (int n = 0; n < 20; ++n) ring.add(named(std::string("c").append(std::to_string(n))));
   EXPECT_EQ(ring.size(), 16u);
   EXPECT_EQ(ring.find("c3"), nullptr);
   EXPECT_EQ(ring.find("c4")->name, "c4");

@@ -88,6 +88,22 @@ TEST_F(Options, RefuseADomainOutOfRange) {
     EXPECT_EQ(parse({"push", "box", "--domain", domain}), 2) << domain;
 }
 
+TEST_F(Options, TakePartitionAndDiscoveryServerFromTheEnvironmentUnlessGiven) {
+  setenv("POINSOT_PARTITION", "lab", 1);
+  setenv("POINSOT_DISCOVERY_SERVER", "10.0.0.1:11811", 1);
+  EXPECT_EQ(parse({"push", "box", "--partition", "desk"}), std::nullopt);
+  EXPECT_EQ(bus_.partition, "desk");
+  EXPECT_EQ(bus_.discovery_server, "10.0.0.1:11811");
+  unsetenv("POINSOT_PARTITION");
+  unsetenv("POINSOT_DISCOVERY_SERVER");
+}
+
+TEST_F(Options, RefuseAServerWithoutAPort) {
+  for (const char* server : {"127.0.0.1", ":11811", "host:", "host:0", "host:70000", "host:1x"})
+    EXPECT_EQ(parse({"push", "box", "--discovery-server", server}), 2) << server;
+  EXPECT_EQ(parse({"push", "box", "--discovery-server", "host:11811"}), std::nullopt);
+}
+
 TEST_F(Options, SuggestTheNearestOption) {
   EXPECT_EQ(parse({"push", "box", "--forse", "1,2,3"}), 2);
   EXPECT_EQ(err_.str(),

@@ -36,6 +36,14 @@ TEST(ParseVector, RefusesWhatIsNotThreeFiniteNumbers) {
   EXPECT_EQ(vector_error("0,0,-inf"), "'0,0,-inf' is not finite");
 }
 
+TEST(ParseOrientation, ScalesToAUnitQuaternionInTheOrderXyzw) {
+  const Eigen::Quaterniond q = parse_orientation("0, 0, 3, 4");
+  EXPECT_EQ(q.z(), 0.6);
+  EXPECT_EQ(q.w(), 0.8);
+  for (const char* text : {"", "0,0,1", "0,0,0,0", "0,0,0,nan", "1,2,3,4,5"})
+    EXPECT_THROW(parse_orientation(text), Error) << text;
+}
+
 TEST(ParseDuration, ReadsEveryUnit) {
   EXPECT_EQ(parse_duration("0.5s"), 500ms);
   EXPECT_EQ(parse_duration("200ms"), 200ms);

@@ -36,12 +36,7 @@ std::shared_ptr<const Checkpoint> some_checkpoint(std::uint64_t frame) {
 }
 
 LogStart start(const std::filesystem::path& file, bool replace = false) {
-  const auto checkpoint = some_checkpoint(100);
-  return {.file = file,
-          .world = "arena",
-          .original = checkpoint->scene,
-          .checkpoint = checkpoint,
-          .replace = replace};
+  return {.file = file, .world = "arena", .checkpoint = some_checkpoint(100), .replace = replace};
 }
 
 TurnRecord push(std::uint64_t before) {
@@ -90,7 +85,6 @@ TEST(CommandLog, ReadsWhatWasWritten) {
   EXPECT_EQ(log.header().epoch, 2u);
   EXPECT_EQ(log.header().hash, 0xabcu);
   EXPECT_EQ(log.start()->state, some_checkpoint(100)->state);
-  EXPECT_EQ(log.original()->world, "test");
 
   const auto first = std::get<TurnRecord>(*log.next());
   EXPECT_EQ(first.before, 101u);
@@ -112,17 +106,6 @@ TEST(CommandLog, ReadsWhatWasWritten) {
   EXPECT_EQ(std::get<FrameRecord>(*log.next()).frame, 52u);
   EXPECT_FALSE(log.next());
   EXPECT_FALSE(log.is_cut());
-}
-
-TEST(CommandLog, KeepsTheSceneThatResetsGoBackTo) {
-  const auto file = test::temp_path("original.log");
-  LogStart with_original = start(file);
-  Scene original = test::empty_scene("before");
-  original.bodies = {test::floor()};
-  with_original.original = std::make_shared<const Scene>(original);
-  CommandLogWriter(with_original).close();
-  EXPECT_EQ(CommandLogReader(file).original()->world, "before");
-  EXPECT_EQ(CommandLogReader(file).original()->bodies.size(), 1u);
 }
 
 TEST(CommandLog, CutAnywhereItIsReadToTheLastWholeLine) {

@@ -1,6 +1,7 @@
 #include "poinsot/runner/replay.h"
 
 #include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
 #include <string>
@@ -25,10 +26,8 @@ class RecordedRun {
   PresentationLayer& layer() { return layer_; }
 
   void record(const std::filesystem::path& file) {
-    log_.emplace(LogStart{.file = file,
-                          .world = "arena",
-                          .original = layer_.original_scene(),
-                          .checkpoint = layer_.make_checkpoint("")});
+    log_.emplace(
+        LogStart{.file = file, .world = "arena", .checkpoint = layer_.make_checkpoint("")});
   }
   bool stop_recording() { return log_->close(); }
 
@@ -195,7 +194,7 @@ TEST(Replay, BeginsInTheMiddleOfARun) {
 }
 
 TEST(Replay, OfACutLogGoesAsFarAsItDoes) {
-  const auto file = test::temp_path("cut.log");
+  const auto file = test::temp_path("cut_replay.log");
   RecordedRun run(boxes());
   run.record(file);
   run.frames(30);
@@ -217,6 +216,28 @@ TEST(Replay, SaysItInJson) {
             R"("sim_time":0.0,"wall_s":0.0,"first_difference":{"frame":6,)"
             R"("recorded":"0000000000000001","found":"00000000000000ff","where":"a.log:8"}})"
             "\n");
+}
+
+TEST(Replay, WritesTheTrajectoryOfBodiesThatComeAndGo) {
+  const auto file = test::temp_path("come_and_go.log"), table = test::temp_path("come_and_go.csv");
+  RecordedRun run(boxes());
+  run.record(file);
+  run.tell(remove("box3"));
+  run.frames(1);
+  run.tell(spawn("bodies: [{name: 'a, b', static: true}, {name: c, static: true}]"));
+  run.frames(1);
+  ASSERT_TRUE(run.stop_recording());
+  ASSERT_FALSE(replayed(file, {.threads = 0, .trajectory = table}).difference);
+  std::ifstream in(table);
+  std::map<std::string, std::string> bodies;  // of each frame
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t name = line.find(',', line.find(',') + 1) + 1;
+    const std::size_t end = line.find(line[name] == '"' ? "\"," : ",", name);
+    bodies[line.substr(0, line.find(','))] += line.substr(name, end - name) + " ";
+  }
+  EXPECT_EQ(bodies["0"], "ground box0 box1 box2 box3 ");
+  EXPECT_EQ(bodies["1"], "ground box0 box1 box2 ");
+  EXPECT_EQ(bodies["2"], "ground box0 box1 box2 \"a, b c ");
 }
 
 // A long session ------------------------------------------------------------------------------

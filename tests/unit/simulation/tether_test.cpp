@@ -162,6 +162,26 @@ TEST(Tether, IsFollowedAlikeByTheSeriesAndByThePair) {
   EXPECT_LT(series.momentum_error(), 1e-11);
 }
 
+TEST(Tether, BoundsHowFarItsBodyGoes) {
+  BodyDef body = test::tumbler();
+  for (const double stiffness : {50.0, 1e5}) {
+    SimulationLayer layer(test::scene({body}));
+    const std::vector<Tether> tethers{tether(0, {0.1, -0.2, 0.3}, {1, 1, 1}, stiffness, 3)};
+    layer.set_tethers(tethers);
+    const DrivenBound bound = driven_bound(layer.world(), 0, {}, 1);
+    const double speed_alone = bound.speed.v;
+    double farthest = 0;
+    for (int n = 1; n <= 60; ++n) {
+      layer.advance_to(n / 60.0);
+      farthest = std::max(farthest, (position(layer.world().y, 0) - body.pose.c).norm());
+    }
+    EXPECT_LE(farthest, bound.path);
+    if (stiffness > 1e4) {
+      EXPECT_LT(bound.path, 0.1 * speed_alone);
+    }
+  }
+}
+
 TEST(Tether, SetAgainChangesNoBits) {
   const std::vector<Tether> tethers{tether(3, {0.1, 0, 0}, {1, 2, 3}, 10, 1),
                                     tether(0, {0, 0, 0.3}, {0, 0, 1}, 20, 0)};
@@ -208,15 +228,15 @@ TEST(Tether, IsTriedExplicitlyAgainWhenItIsNoLongerStiff) {
   SimulationLayer layer(weightless({at("a", {0, 0, 0})}));
   std::vector<Tether> tethers{tether(0, {0, 0, 0}, {1, 0, 0}, 1e6, 2e6)};
   layer.set_tethers(tethers);
-  run(layer, 0, 10);
+  run(layer, 0, 20);
   EXPECT_EQ(layer.methods()[0], Method::rosenbrock);
   tethers[0].target = {2, 0, 0};
   layer.set_tethers(tethers);
-  run(layer, 10, 1);
+  run(layer, 20, 1);
   EXPECT_EQ(layer.methods()[0], Method::rosenbrock);
   tethers[0].stiffness = tethers[0].damping = 10;
   layer.set_tethers(tethers);
-  run(layer, 11, 1);
+  run(layer, 21, 1);
   EXPECT_EQ(layer.methods()[0], Method::taylor);
 }
 
