@@ -45,7 +45,6 @@ constexpr std::uint32_t kPoseBytes = 112;      // of one body in a frame
 constexpr std::uint32_t kFramesInSegment = 6;  // fewer, and frames arrive by repair only
 constexpr std::uint32_t kMaxMessage = 65500;   // [bytes] one datagram; larger samples are fragments
 constexpr std::uint32_t kSocketBuffer = 4 * kMegabyte;
-constexpr std::size_t kMaxRemoteParticipants = 256;
 constexpr int kLeaseMs = 3000;  // who is not heard of for so long is gone
 constexpr const char* kLoopback = "127.0.0.1";
 // Of the server with number 0, as `fastdds discovery -i 0` starts it.
@@ -155,9 +154,6 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports = {
       guarded(udp, options.commands_only ? kMaxCommandSample : kMaxSample), shared_memory};
-
-  // Each is greeted and heard of; more of them, and nobody else would be heard.
-  qos.allocation().participants.maximum = kMaxRemoteParticipants;
 
   // Discovery goes over UDP alone, data over either: shared memory under a number of our own.
   auto& wire = qos.wire_protocol();
