@@ -30,8 +30,8 @@ SHM = pathlib.Path("/dev/shm")
 
 class Programs:
     def __init__(self, build, domain):
-        self.daemon_path = build / "server" / "poinsotd"
-        self.client_path = build / "client" / "poinsot"
+        self.daemon_path = build / "bin" / "poinsotd"
+        self.client_path = build / "bin" / "poinsot"
         self.env = dict(os.environ, POINSOT_DOMAIN_ID=str(domain))
 
     def daemon(self, scene, *options):

@@ -225,7 +225,9 @@ TEST(ClientTest, FollowsWhatIsSpawnedAndRemoved) {
   daemon.report.write(FakeDaemon::report_of(4, 4));
   ASSERT_TRUE(eventually([&] { return client.scene(kPatience).size() == 4; }));
   EXPECT_EQ(client.scene_revision(), 4u);
-  daemon.scene.remove(sample::body_info(0, 3));
+  BodyInfo gone = sample::body_info(0, 5);
+  gone.removed = true;
+  daemon.scene.write(gone);
   daemon.report.write(FakeDaemon::report_of(3, 5));
   ASSERT_TRUE(eventually([&] { return client.scene(kPatience).size() == 3; }));
   EXPECT_EQ(client.scene(kPatience).back().name, spawned.name);

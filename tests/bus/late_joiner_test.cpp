@@ -50,6 +50,31 @@ TEST(LateJoiner, GetsTheNewestSampleOfEachBody) {
     EXPECT_EQ(slots.count(sample::body_info(i, 10).id.slot), 1u);
 }
 
+TEST(LateJoiner, DoesNotGetABodyThatIsForgotten) {
+  Participant here({.domain = test_domain()});
+  Participant there({.domain = test_domain()});
+  Publisher<BodyInfo> scene(here, "removed");
+  Subscriber<BodyInfo> early(there, "removed");
+  for (std::uint32_t i = 0; i < 3; ++i) ASSERT_TRUE(scene.write(sample::body_info(i, 1)));
+  BodyInfo body;
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(eventually([&] { return early.take(body); }));
+  BodyInfo gone;
+  gone.id = sample::body_info(1, 1).id;
+  gone.removed = true;
+  ASSERT_TRUE(scene.write(gone));
+  ASSERT_TRUE(eventually([&] { return early.take(body); }));
+  EXPECT_TRUE(body.removed);
+  EXPECT_EQ(body.id, gone.id);
+
+  ASSERT_TRUE(scene.forget(gone));
+  Subscriber<BodyInfo> late(there, "removed");
+  for (const std::uint32_t i : {0u, 2u}) {
+    ASSERT_TRUE(eventually([&] { return late.take(body); }));
+    EXPECT_EQ(body.id, sample::body_info(i, 1).id);
+    EXPECT_FALSE(body.removed);
+  }
+}
+
 TEST(LateJoiner, GetsTheLastReport) {
   Participant here({.domain = test_domain()});
   Participant there({.domain = test_domain()});

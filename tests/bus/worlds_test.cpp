@@ -74,6 +74,7 @@ TEST(Worlds, ManyParticipantsOfThisHostAllFindEachOther) {
       if (participants[i].worlds() != Names{"late_number"}) return false;
     return true;
   }));
+  EXPECT_EQ(participants.back().worlds(), Names{});  // its own is none that it met
 }
 
 TEST(Worlds, AProcessThatJoinedAndLeftManyTimesIsStillMet) {

@@ -152,7 +152,8 @@ void drag(CollisionLayer& layer, int n) {
 // Bodies are thrown, and put elsewhere.
 void throw_about(CollisionLayer& layer, int n) {
   if (n % 15 == 0) layer.kick(3 + n / 15 % 8, {Vec3(20, -10, 60), Vec3(1, 0, 2)});
-  if (n % 40 == 10) layer.set_state(4, {Vec3(0, 0.5, 3), Quat::Identity()}, {Vec3(0, 0, -2), {}});
+  if (n % 40 == 10)
+    layer.set_state(4, {Vec3(0, 0.5, 3), Quat::Identity()}, {Vec3(0, 0, -2), Vec3::Zero()});
 }
 
 // One body's state becomes nothing: it is frozen.
@@ -192,8 +193,8 @@ std::vector<CheckpointScene> checkpoint_scenes() {
       {"FastKinematic", kinematic(Profile::fast), 120, 100, {}},
       {"SoftHeap", heap_by(Solver::soft_step), 120, 100, {}},
       {"NewtonHeap", heap_by(Solver::convex_newton), 60, 30, {}},
-      {"BacktrackingHeap", heap_with(Search::backtracking), 50, 40, {}},
-      {"ContinuousHeap", heap_with(Search::continuous), 50, 40, {}},
+      {"BacktrackingHeap", heap_with(Search::backtracking), 40, 20, {}},
+      {"ContinuousHeap", heap_with(Search::continuous), 30, 20, {}},
       {"UnsearchedHeap", heap_with(Search::none), 80, 50, {}},
       {"PushedHeap", heap_by(Solver::automatic), 90, 50, push},
       {"DraggedSprings", springs(50, 0.5, Kind::exact), 80, 60, drag},

@@ -213,7 +213,8 @@ Mat3 inertia_from(Checks& checks, const std::array<double, 6>& v) {
 
 std::string to_message(const BodyInfo& in, msg::v3::BodyDescription& out) {
   Checks checks;
-  checks.text(in.name, "name", kMaxNameLength);
+  if (!in.removed) checks.text(in.name, "name", kMaxNameLength);
+  out.removed(in.removed);
   out.slot(in.id.slot);
   out.generation(in.id.generation);
   out.session(in.session);
@@ -241,7 +242,8 @@ std::string from_message(const msg::v3::BodyDescription& in, BodyInfo& out) {
   checks.require(static_cast<bool>(out.id), "body has no generation");
   out.index = in.scene_index();
   out.revision = in.scene_revision();
-  out.removed = false;
+  out.removed = in.removed();
+  if (out.removed) return checks.take();
   out.name = in.name().c_str();
   checks.text(out.name, "name", kMaxNameLength);
   checks.require(in.kind() == msg::v3::BODY_DYNAMIC || in.kind() == msg::v3::BODY_STATIC ||

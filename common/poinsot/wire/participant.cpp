@@ -104,8 +104,10 @@ std::vector<std::string> WorldDirectory::worlds() const {
   return {names.begin(), names.end()};
 }
 
-void WorldDirectory::on_publisher_discovery(dds::DomainParticipant*,
+void WorldDirectory::on_publisher_discovery(dds::DomainParticipant* participant,
                                             rtps::WriterDiscoveryInfo&& info) {
+  // The library tells of the participant's own writers, too.
+  if (info.info.guid().guidPrefix == participant->guid().guidPrefix) return;
   const std::string world = world_of(info.info.topicName().c_str());
   if (world.empty() || !is_in(partition_, info.info)) return;
   const std::lock_guard lock(mutex_);

@@ -48,7 +48,7 @@ class Participant {
   Participant(Participant&&) noexcept;
   Participant& operator=(Participant&&) noexcept;
 
-  // World names of the daemons discovered so far, sorted. Discovery is asynchronous.
+  // World names of the other daemons discovered so far, sorted. Discovery is asynchronous.
   std::vector<std::string> worlds() const;
 
   // What follows poinsot/<world>/poses/ in the names of topics that somebody reads, sorted, each

@@ -54,9 +54,9 @@ bool Publisher<Message>::write(const Message& message) {
 }
 
 template <class Message>
-bool Publisher<Message>::remove(const Message& message) {
+bool Publisher<Message>::forget(const Message& message) {
   to_message(message, impl_->sample);  // of which only the key counts
-  return impl_->writer->dispose(&impl_->sample, dds::InstanceHandle_t()) ==
+  return impl_->writer->unregister_instance(&impl_->sample, dds::InstanceHandle_t()) ==
          eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 }
 

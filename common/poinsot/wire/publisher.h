@@ -24,8 +24,9 @@ class Publisher {
   // False if the bus refused the sample. Never blocks for a slow or stopped reader.
   bool write(const Message& message);
 
-  // Of a keyed topic: takes the instance of this key back; late joiners do not get it any more.
-  bool remove(const Message& message);
+  // Of a keyed topic: forgets the instance of this key; late joiners do not get it any more. Its
+  // last sample should have told those who have it.
+  bool forget(const Message& message);
 
   // Readers matched now.
   int readers() const;

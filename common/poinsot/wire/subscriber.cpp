@@ -84,25 +84,6 @@ Malformed malformed(const Type& sample, std::string reason) {
   return result;
 }
 
-template <class Message>
-bool was_removed(const dds::SampleInfo&, Message&) {
-  return false;
-}
-// The handle of an instance whose key takes at most 16 bytes is the key, big-endian (DDSI-RTPS 2.3,
-// 9.6.3.8): slot and generation.
-bool was_removed(const dds::SampleInfo& info, BodyInfo& body) {
-  if (info.instance_state != dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE) return false;
-  const auto word = [&info](int first) {
-    std::uint32_t value = 0;
-    for (int i = first; i < first + 4; ++i) value = value << 8 | info.instance_handle.value[i];
-    return value;
-  };
-  body = {};
-  body.id = {word(0), word(4)};
-  body.removed = true;
-  return static_cast<bool>(body.id);
-}
-
 }  // namespace
 
 template <class Message>
@@ -122,10 +103,7 @@ bool Subscriber<Message>::take(Message& message,
   dds::SampleInfo info;
   while (impl_->reader->take_next_sample(&impl_->sample, &info) == ReturnCode_t::RETCODE_OK) {
     impl_->writer = key_of(info.publication_handle);
-    if (!info.valid_data) {  // a writer left, or an instance was taken back
-      if (was_removed(info, message)) return true;
-      continue;
-    }
+    if (!info.valid_data) continue;  // a writer left, or an instance was taken back
     std::string reason = from_message(impl_->sample, message);
     if (reason.empty()) return true;
     if (refused) refused(malformed(impl_->sample, std::move(reason)));

@@ -32,10 +32,6 @@ class BroadPhase {
   // holds all. With a number that is not finite it holds nothing and false is returned.
   bool set_plane(int i, const Vec3& normal_W, double offset_W);
 
-  // Planes and who moves; the boxes are to be set again.
-  template <class Archive>
-  void archive(Archive& with);
-
   // Sorted by (a, b). Valid until called again.
   std::span<const ColliderPair> pairs();
 

@@ -140,7 +140,9 @@ void PairStore::hash_into(Hash64& hash) const {
     if (record.crowd_contact >= 0) {
       hash.add(static_cast<std::uint64_t>(record.pair.a) << 32 |
                static_cast<std::uint32_t>(record.pair.b));
-      crowd_contacts_[static_cast<std::size_t>(record.crowd_contact)].hash_into(hash);
+      Hash64 contact_hash;  // does not wait for those before it
+      crowd_contact(record).hash_into(contact_hash);
+      hash.add(contact_hash.value());
     }
     if (!record.standing && (contact == nullptr || contact->points.empty())) continue;
     hash.add(static_cast<std::uint64_t>(record.pair.a) << 32 |

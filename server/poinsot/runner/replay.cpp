@@ -45,7 +45,10 @@ void LogPlayer::play(TurnRecord turn) {
   turn.before = layer_.frame() + 1;
   turn.epoch = layer_.epoch();
   for (WrenchCommand& wrench : turn.wrenches) wrench.epoch = later(wrench.epoch, epochs_later_);
-  for (Order& order : turn.orders) order.control.epoch = later(order.control.epoch, epochs_later_);
+  for (Order& order : turn.orders) {
+    order.control.epoch = later(order.control.epoch, epochs_later_);
+    if (order.checkpoint) order.checkpoint = with_threads(order.checkpoint, threads_);
+  }
   replies_.clear();
   apply_turn(turn, layer_, replies_);
   commands_ += replies_.size();
@@ -66,7 +69,7 @@ ReplayResult replay(const std::filesystem::path& file, const ReplayOptions& opti
   }
 
   ReplayResult result;
-  LogPlayer player(log, layer);
+  LogPlayer player(log, layer, options.threads);
   Elapsed elapsed;
   {
     const Stopwatch::Lap lap(elapsed);

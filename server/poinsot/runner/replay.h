@@ -19,9 +19,13 @@ namespace poinsot {
 // Leads a layer through a log.
 class LogPlayer {
  public:
-  // The layer stands where the log begins; both outlive the player.
-  LogPlayer(CommandLogReader& log, PresentationLayer& layer)
-      : log_(log), layer_(layer), epochs_later_(layer.epoch() - log.header().epoch) {}
+  // The layer stands where the log begins; both outlive the player. Restores bring the number of
+  // threads of their scenes along, unless `threads` says another.
+  LogPlayer(CommandLogReader& log, PresentationLayer& layer, int threads = 0)
+      : log_(log),
+        layer_(layer),
+        threads_(threads),
+        epochs_later_(layer.epoch() - log.header().epoch) {}
 
   // Does what the log says up to its next frame and advances to it. What was recorded of that
   // frame; nothing: the log has ended.
@@ -38,6 +42,7 @@ class LogPlayer {
 
   CommandLogReader& log_;
   PresentationLayer& layer_;
+  int threads_;
   std::uint32_t epochs_later_;  // modulo 2³²
   CommandLogWriter* record_ = nullptr;
   std::vector<Reply> replies_;

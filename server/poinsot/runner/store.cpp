@@ -1,9 +1,7 @@
 #include "poinsot/runner/store.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
-#include <optional>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -23,15 +21,11 @@ bool is_letter(char c) {
          c == '-' || c == '.';
 }
 
-// The number in the name of a member of a series.
-std::optional<std::uint64_t> number_in(std::string_view name, std::string_view prefix) {
-  if (!name.starts_with(prefix)) return std::nullopt;
-  name.remove_prefix(prefix.size());
-  std::uint64_t number = 0;
-  const char* const end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data(), end, number);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return number;
+// "auto-17": a name of the autosaves and nobody else's.
+bool is_autosave(std::string_view name) {
+  if (!name.starts_with(Store::kAutosave)) return false;
+  name.remove_prefix(Store::kAutosave.size());
+  return !name.empty() && name.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 // Newest first; of equal times the longer name, then the later, so that of a series the larger
@@ -133,19 +127,10 @@ std::vector<StoredFile> Store::logs() const {
   return list(directory_, kLog);
 }
 
-std::string Store::next_name(std::string_view prefix) const {
-  std::uint64_t next = 1;
-  for (const std::string_view extension : {kCheckpoint, kLog})
-    for (const StoredFile& file : list(directory_, extension))
-      if (const auto number = number_in(file.name, prefix); number && *number != UINT64_MAX)
-        next = std::max(next, *number + 1);
-  return std::string(prefix).append(std::to_string(next));
-}
-
 void Store::prune_autosaves(std::size_t keep) const {
   std::size_t seen = 0;
   for (const StoredFile& file : checkpoints()) {
-    if (!number_in(file.name, kAutosave) || ++seen <= keep) continue;
+    if (!is_autosave(file.name) || ++seen <= keep) continue;
     std::error_code gone;  // another daemon may have been faster
     std::filesystem::remove(checkpoint_file(file.name), gone);
   }

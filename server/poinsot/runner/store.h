@@ -52,9 +52,6 @@ class Store {
   std::vector<StoredFile> checkpoints() const;  // newest first
   std::vector<StoredFile> logs() const;
 
-  // The name of the next of a series: "auto-" → "auto-17", one more than the largest that is there,
-  // be it a checkpoint or a log.
-  std::string next_name(std::string_view prefix) const;
   // Removes all but the newest `keep` checkpoints of the series kAutosave.
   void prune_autosaves(std::size_t keep) const;
 

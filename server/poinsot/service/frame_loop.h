@@ -44,10 +44,8 @@ namespace poinsot {
 struct RunStore {
   std::function<void(const Checkpoint&)> write = {};
   std::function<std::shared_ptr<const Checkpoint>(const std::string& name)> read = {};
-  // A log that begins with this checkpoint. Opens nothing itself.
-  std::function<std::shared_ptr<CommandLogWriter>(const std::string& name,
-                                                  std::shared_ptr<const Checkpoint>)>
-      log = {};
+  // A log that begins so; file and world are filled in. Opens nothing itself.
+  std::function<std::shared_ptr<CommandLogWriter>(const std::string& name, LogStart)> log = {};
   std::function<void(const Checkpoint&)> autosave = {};  // on the worker's thread; does not throw
 };
 
@@ -119,7 +117,7 @@ class FrameLoop {
   void save_to_disk(const RunControl& control, Reply reply);
   void restore_from_disk(const RunControl& control);
   void record(const RunControl& control);
-  void begin_recording(const std::string& name);
+  std::shared_ptr<CommandLogWriter> begin_recording(const std::string& name);
   void end_recording(const RunControl& control);
   void drop_failed_recording();
   void let_go(std::shared_ptr<CommandLogWriter> log);

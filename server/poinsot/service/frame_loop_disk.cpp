@@ -60,20 +60,21 @@ void FrameLoop::record(const RunControl& control) {
                   "the daemon keeps nothing on disk: it has no --data");
   if (const std::string fault = store_name_fault(control.name); !fault.empty())
     return answer(control, ResultCode::invalid_value, fault);
-  auto log = options_.store.log(control.name, layer_.make_checkpoint(""));
-  recording_.begin(control.name, log, layer_.frame() + 1, layer_.epoch());
-  report();
-  const auto work = [log = std::move(log)](Reply& reply) {
+  const auto work = [log = begin_recording(control.name)](Reply& reply) {
     if (log->wait_until_open()) return;
     reply.code = ResultCode::operation_failed;
     reply.message = log->failure();
   };
+  report();
   defer(control, work, reply_to(control, ResultCode::ok, ""));
 }
 
-void FrameLoop::begin_recording(const std::string& name) {
-  recording_.begin(name, options_.store.log(name, layer_.make_checkpoint("")), layer_.frame() + 1,
-                   layer_.epoch());
+std::shared_ptr<CommandLogWriter> FrameLoop::begin_recording(const std::string& name) {
+  LogStart start;
+  start.checkpoint = layer_.make_checkpoint("");
+  auto log = options_.store.log(name, std::move(start));
+  recording_.begin(name, log, layer_.frame() + 1, layer_.epoch());
+  return log;
 }
 
 void FrameLoop::end_recording(const RunControl& control) {

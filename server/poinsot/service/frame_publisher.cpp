@@ -11,6 +11,8 @@ namespace {
 
 // How long a new reader of poses may go unnoticed while no frame is advanced.
 constexpr std::chrono::milliseconds kLookForReaders{100};
+// How long a reader has to be told, again if need be, that a body is gone.
+constexpr std::chrono::seconds kRemembered{10};
 
 }  // namespace
 
@@ -80,11 +82,15 @@ void FramePublisher::write_report() {
 }
 
 void FramePublisher::send_scene() {
+  forget_removed();
   if (!outbox_.take(change_)) return;
   for (const BodyId id : change_.removed) {
     BodyInfo gone;
+    gone.session = session_;
     gone.id = id;
-    scene_topic_.remove(gone);  // unknown if it went before it was sent
+    gone.removed = true;
+    write(scene_topic_, gone);
+    removed_.push_back({std::chrono::steady_clock::now(), gone});
     std::erase_if(bodies_, [id](const NamedBody& body) { return body.id == id; });
   }
   for (BodyInfo& body : change_.added) {
@@ -94,6 +100,13 @@ void FramePublisher::send_scene() {
     bodies_.push_back({body.id, body.name});
   }
   streams_.set_bodies(bodies_);
+}
+
+// Late joiners need not hear of bodies that have long been gone.
+void FramePublisher::forget_removed() {
+  const auto now = std::chrono::steady_clock::now();
+  for (; !removed_.empty() && now - removed_.front().first > kRemembered; removed_.pop_front())
+    scene_topic_.forget(removed_.front().second);
 }
 
 void FramePublisher::send_poses(bool quiet) {

@@ -8,7 +8,9 @@
 #pragma once
 
 #include <chrono>
+#include <chrono>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -43,6 +45,7 @@ class FramePublisher {
   void write_poses();
   void write_report();
   void send_scene();
+  void forget_removed();
   void send_impacts();
   void send_contacts();
   void send_held(bool quiet);
@@ -66,6 +69,7 @@ class FramePublisher {
   RunReport report_;
   SceneChange change_;
   std::vector<NamedBody> bodies_;  // that there are
+  std::deque<std::pair<std::chrono::steady_clock::time_point, BodyInfo>> removed_;
   ContactSnapshot contacts_;
   HeldList held_;
   // Readers at the last look, and whether one joined since the newest was written. A reader that

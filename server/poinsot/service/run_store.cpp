@@ -33,23 +33,23 @@ std::optional<Store> open_store(const DaemonOptions& options, const std::string&
 }
 
 RunStore run_store(const Store& store, const std::string& world, Logger logger) {
-  return {
-      .write = [&store](const Checkpoint& checkpoint) { store.save(checkpoint); },
-      .read = [&store](const std::string& name) { return read(store, name); },
-      .log =
-          [&store, world](const std::string& name, std::shared_ptr<const Checkpoint> checkpoint) {
-            return std::make_shared<CommandLogWriter>(
-                LogStart{store.log_file(name), world, std::move(checkpoint)});
-          },
-      .autosave =
-          [&store, logger = std::move(logger)](const Checkpoint& checkpoint) {
-            try {
-              store.save(checkpoint);
-              store.prune_autosaves(kAutosavesKept);
-            } catch (const std::exception& error) {
-              logger->warn("autosave_failed reason={}", poinsot::quoted(error.what()));
-            }
-          }};
+  return {.write = [&store](const Checkpoint& checkpoint) { store.save(checkpoint); },
+          .read = [&store](const std::string& name) { return read(store, name); },
+          .log =
+              [&store, world](const std::string& name, LogStart start) {
+                start.file = store.log_file(name);
+                start.world = world;
+                return std::make_shared<CommandLogWriter>(std::move(start));
+              },
+          .autosave =
+              [&store, logger = std::move(logger)](const Checkpoint& checkpoint) {
+                try {
+                  store.save(checkpoint);
+                  store.prune_autosaves(kAutosavesKept);
+                } catch (const std::exception& error) {
+                  logger->warn("autosave_failed reason={}", poinsot::quoted(error.what()));
+                }
+              }};
 }
 
 std::shared_ptr<const Checkpoint> first_checkpoint(const DaemonOptions& options, const Store& store,

@@ -50,8 +50,9 @@ void World::archive(Archive& with) {
   if constexpr (Archive::kReads)
     for (Eigen::Index i = 0; i < size(); ++i)
       if (motion[static_cast<std::size_t>(i)] == Motion::fixed) move_anchors(*this, i);
-  for (std::size_t k = 0; k < motion.size(); ++k)
-    if (motion[k] == Motion::kinematic) with(kinematic[k]);
+  for (std::size_t k = 0; k < kinematic.size(); ++k)  // frozen or not
+    if (motion[k] == Motion::kinematic || (motion[k] == Motion::frozen && mass[k] == 0))
+      with(kinematic[k]);
   with.some(held, [&](std::size_t k) { return !held[k].is_zero(); });
   with(tethers);
   if constexpr (Archive::kReads) {

@@ -15,8 +15,8 @@ constexpr double kUsual = 1.0 / 240, kFrame = 4 * kUsual;  // [s]
 
 // Bodies of which each touches the one before; the first is the ground.
 struct Stack {
-  explicit Stack(Scene scene)
-      : state(test::with_profile(std::move(scene), Profile::accurate)), step(state.def) {
+  explicit Stack(const Scene& scene)
+      : state(test::with_profile(scene, Profile::accurate)), step(state.def) {
     std::vector<ColliderPair> pairs;
     for (int k = 1; k < static_cast<int>(state.colliders.size()); ++k) pairs.push_back({k - 1, k});
     state.pairs.update(pairs, [&](PairRecord& record) {
@@ -24,7 +24,7 @@ struct Stack {
       record.b = record.pair.b;
       record.size = std::min(state.colliders[static_cast<std::size_t>(record.a)].size,
                              state.colliders[static_cast<std::size_t>(record.b)].size);
-      record.friction = state.materials[static_cast<std::size_t>(record.b)].friction;
+      record.friction = scene.bodies[static_cast<std::size_t>(record.b)].material.friction;
       record.standing = true;
       return true;
     });

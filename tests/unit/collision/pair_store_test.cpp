@@ -56,5 +56,45 @@ TEST(PairStore, GivesTheContactOfAPairThatEndedToAnotherWithoutItsPast) {
   EXPECT_EQ(store.contact(store[0]).last_h, 0);
 }
 
+TEST(PairStore, RenumbersCollidersAndKeepsWhatItKnows) {
+  PairStore store(4);
+  const std::vector<ColliderPair> pairs{{0, 2}, {0, 4}, {1, 6}, {4, 6}};
+  store.update(pairs, make);
+  store[1].safe_until = 5;
+  store.insert_colliders(3, 2);
+  EXPECT_EQ(store[0].pair, (ColliderPair{0, 2}));
+  EXPECT_EQ(store[1].pair, (ColliderPair{0, 6}));
+  EXPECT_EQ(store[1].safe_until, 5);
+  EXPECT_EQ(store[3].pair, (ColliderPair{6, 8}));
+  store.make_contact(store[2]);
+  store.contact(store[2]).last_h = 0.1;
+  store.erase_colliders(1, 2);  // with 0, 2 and 1, 8
+  ASSERT_EQ(store.records().size(), 2u);
+  EXPECT_EQ(store[0].pair, (ColliderPair{0, 4}));
+  EXPECT_EQ(store[0].safe_until, 5);
+  EXPECT_EQ(store[1].pair, (ColliderPair{4, 6}));
+  EXPECT_EQ(store.of(0).size(), 1u);
+  EXPECT_EQ(store.of(3).size(), 1u);
+  store.make_contact(store[1]);
+  EXPECT_EQ(store.contact(store[1]).last_h, 0);
+}
+
+TEST(PairStore, ForgetsAllOfAPairButWhoseItIs) {
+  PairStore store(4);
+  const std::vector<ColliderPair> pairs{{0, 2}};
+  store.update(pairs, make);
+  store[0].friction = 0.3;
+  store[0].standing = true;
+  store[0].safe_until = 5;
+  store.make_contact(store[0]);
+  store.forget(store[0]);
+  EXPECT_EQ(store[0].pair, (ColliderPair{0, 2}));
+  EXPECT_EQ(store[0].b, 1);
+  EXPECT_EQ(store[0].friction, 0.3);
+  EXPECT_FALSE(store[0].standing);
+  EXPECT_LT(store[0].safe_until, 0);
+  EXPECT_EQ(store.find_contact(store[0]), nullptr);
+}
+
 }  // namespace
 }  // namespace poinsot

@@ -116,14 +116,12 @@ TEST(Store, ADamagedNewestIsToldAndPassedOver) {
   EXPECT_NE(faults[0].find("bad.checkpoint: the checkpoint is damaged"), std::string::npos);
 }
 
-TEST(Store, NumbersASeriesPastTheLargest) {
-  const Store store(test::temp_path("series"), "arena");
-  EXPECT_EQ(store.next_name("auto-"), "auto-1");
-  for (const char* name : {"auto-9", "auto-10", "auto-x", "auto-11b", "other-50"})
-    store.save(named(name));
-  std::ofstream(store.log_file("auto-12")) << "\n";
-  EXPECT_EQ(store.next_name("auto-"), "auto-13");
-  EXPECT_EQ(names(store.logs()), Names({"auto-12"}));
+TEST(Store, ListsLogsApart) {
+  const Store store(test::temp_path("lists"), "arena");
+  store.save(named("a"));
+  std::ofstream(store.log_file("b")) << "\n";
+  EXPECT_EQ(names(store.checkpoints()), Names({"a"}));
+  EXPECT_EQ(names(store.logs()), Names({"b"}));
 }
 
 TEST(Store, KeepsTheLastAutosavesAndAllOthers) {
@@ -133,10 +131,14 @@ TEST(Store, KeepsTheLastAutosavesAndAllOthers) {
     store.save(named(name));
     set_age(store, name, 100 - k);
   }
-  store.save(named("mine"));
-  set_age(store, "mine", 500);
+  for (const char* name : {"auto-x", "auto-1b", "mine"}) {
+    store.save(named(name));
+    set_age(store, name, 500);
+  }
   store.prune_autosaves(3);
-  EXPECT_EQ(names(store.checkpoints()), Names({"auto-12", "auto-11", "auto-10", "mine"}));
+  EXPECT_EQ(store.checkpoints().size(), 6u);
+  for (const char* name : {"auto-12", "auto-11", "auto-10", "auto-x", "auto-1b", "mine"})
+    EXPECT_EQ(store.load(name)->name, name);
 }
 
 TEST(Store, OfTheSameTimeTheLargerNumberIsNewer) {

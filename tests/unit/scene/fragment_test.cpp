@@ -50,8 +50,8 @@ TEST(Fragment, OtherKeysAreRefusedAtTheirPlace) {
   EXPECT_EQ(fault_of("bodies: [{name: a, static: true}]\nworld: x\n"),
             "spawn:2:1: unknown key 'world' here, it belongs in scene");
   EXPECT_EQ(fault_of("bodys: [{name: a, static: true}]\n"),
-            "spawn:1:1: a fragment needs the key 'bodies'\n"
-            "spawn:1:1: unknown key 'bodys', did you mean 'bodies'?");
+            "spawn:1:1: unknown key 'bodys', did you mean 'bodies'?\n"
+            "spawn:1:1: a fragment needs the key 'bodies'");
   EXPECT_EQ(fault_of("bodies:\n  - {name: a, static: true, shap: {sphere: 1}}\n"),
             "spawn:2:29: unknown key 'shap', did you mean 'shape'?");
 }
@@ -61,11 +61,11 @@ TEST(Fragment, AllFaultsComeAtOnce) {
                      "  - {name: a, density: 1, shape: {sphere: -1}}\n"
                      "  - {name: b}\n"
                      "  - {name: b, static: true, material: {friction: -1}}\n"),
-            "spawn:2:42: sphere radius must be > 0 m and at most 1e+12 m, is -1\n"
+            "spawn:2:43: sphere radius must be > 0 m and at most 1e+12 m, is -1\n"
             "spawn:3:5: a body that is neither static nor kinematic needs a shape with a density, "
             "or mass and inertia\n"
             "spawn:4:12: duplicate body name 'b', first at spawn:3:5\n"
-            "spawn:4:51: friction must be >= 0 and finite, is -1");
+            "spawn:4:50: friction must be >= 0 and finite, is -1");
 }
 
 TEST(Fragment, NamesNoFile) {

@@ -67,5 +67,30 @@ TEST(PairRules, FindsEachOfManyEntriesWhicheverWayItIsAsked) {
       }
 }
 
+TEST(PairRules, HoldForBodiesThatComeAndNoLongerForThoseThatWent) {
+  Scene scene = crowd(3);
+  PairDef pair;
+  pair.a = std::to_string(2);
+  pair.b = std::to_string(0);
+  pair.collide = false;
+  scene.pairs.push_back(pair);
+  PairRules rules(scene);
+  EXPECT_FALSE(rules.collide(0, 2));
+  rules.remove(0);
+  EXPECT_TRUE(rules.collide(0, 2));
+  BodyDef other;
+  other.name = std::to_string(9);
+  other.material = {0.9, 0.7};
+  rules.add(0, other);
+  expect_rule(rules.rule(0, 2), std::sqrt(0.9 * scene.bodies[2].material.friction), 0.7, true);
+  rules.add(3, scene.bodies[0]);
+  EXPECT_FALSE(rules.collide(3, 2));
+  EXPECT_TRUE(rules.collide(0, 2));
+
+  scene.bodies[0] = {};  // a scene in which the name is nobody's
+  scene.bodies[0].absent = true;
+  EXPECT_TRUE(PairRules(scene).collide(0, 2));
+}
+
 }  // namespace
 }  // namespace poinsot

@@ -188,5 +188,25 @@ TEST(ThrowFaults, GivesALineToEachFault) {
   }
 }
 
+TEST(Validate, AbsentBodiesAreNoFaultsAndPairsMayNameWhoWent) {
+  Scene scene = good_scene();
+  PairDef pair;
+  pair.a = "gone";
+  pair.b = "ball";
+  pair.collide = false;
+  scene.pairs.push_back(pair);
+  EXPECT_EQ(validate(scene).size(), 1u);
+  for (int k = 0; k < 2; ++k) {
+    scene.bodies.emplace_back();
+    scene.bodies.back().absent = true;
+  }
+  EXPECT_TRUE(validate(scene).empty());
+  scene.bodies.back().shapes = {{Sphere{0.5}, {}}};
+  EXPECT_EQ(validate(scene).size(), 1u);
+  scene.bodies.back().shapes.clear();
+  scene.bodies.back().generation = 0;
+  EXPECT_EQ(validate(scene).size(), 1u);
+}
+
 }  // namespace
 }  // namespace poinsot

@@ -54,5 +54,42 @@ TEST(World, AFrozenBodyStaysAtRest) {
   EXPECT_NEAR((body_pose(world, 0).c - Vec3(1, 2, 3)).norm(), 0, 1e-15);
 }
 
+TEST(World, ABodyTakesTheLowestAbsentColumnOrANewOne) {
+  World world(test::scene({test::ground(), skewed(), test::box("box", {7, 8, 9})}));
+  world.held[1].in_W.force = {1, 2, 3};
+  world.remove(1);
+  EXPECT_TRUE(world.is_absent(1));
+  EXPECT_FALSE(world.moves(1));
+  EXPECT_TRUE(world.held[1].is_zero());
+  EXPECT_EQ(world.names[1], "");
+  EXPECT_EQ(world.find("skewed"), std::nullopt);
+  EXPECT_EQ(world.find(""), std::nullopt);
+  EXPECT_EQ(world.find(BodyId{1, 1}), std::nullopt);
+  EXPECT_EQ(world.find("box"), 2);
+
+  BodyDef next = skewed();
+  next.name = "a";
+  next.generation = 2;
+  EXPECT_EQ(world.add(next), 1);
+  EXPECT_EQ(world.find(BodyId{1, 2}), 1);
+  next.name = "z";
+  next.generation = 1;
+  EXPECT_EQ(world.add(next), 3);
+  EXPECT_EQ(world.size(), 4);
+  for (const auto& [name, column] : {std::pair{"ground", 0}, {"a", 1}, {"box", 2}, {"z", 3}})
+    EXPECT_EQ(world.find(name), column) << name;
+  EXPECT_EQ(world.y.col(1), World(test::scene({skewed()})).y.col(0));
+  EXPECT_EQ(world.y.col(3), world.y.col(1));
+}
+
+TEST(World, ASetStateIsThatOfTheCentreOfMassAndThaws) {
+  World world(test::scene({skewed()}));
+  world.freeze(0);
+  const BodyDef def = skewed();
+  world.set_state(0, def.pose, {def.linear_velocity, def.angular_velocity});
+  EXPECT_TRUE(world.moves(0));
+  EXPECT_EQ(world.y, World(test::scene({skewed()})).y);
+}
+
 }  // namespace
 }  // namespace poinsot

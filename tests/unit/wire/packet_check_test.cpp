@@ -17,8 +17,11 @@ void append(Bytes& bytes, std::uint64_t number, int size, bool little_endian = t
 }
 
 Bytes header() {
-  Bytes bytes = {'R', 'T', 'P', 'S', 2, 3, 1, 15};
-  bytes.resize(20, 7);
+  Bytes bytes;
+  bytes.reserve(20);
+  for (const char byte : {'R', 'T', 'P', 'S', '\2', '\3', '\1', '\17'})
+    bytes.push_back(static_cast<unsigned char>(byte));
+  while (bytes.size() < 20) bytes.push_back(7);
   return bytes;
 }
 
