@@ -136,6 +136,7 @@ void FramePublisher::send_impacts() {
 void FramePublisher::send_contacts() {
   of_contacts_.look(contacts_topic_.readers());
   outbox_.set_contacts_wanted(of_contacts_.readers > 0);
+  if (of_contacts_.readers == 0) contacts_.epoch = 0;  // old news to who comes next
   const bool is_new = outbox_.take(contacts_);
   const bool again = of_contacts_.joined && contacts_.epoch != 0;
   if (of_contacts_.readers == 0 || !(is_new || again)) return;
@@ -148,6 +149,7 @@ void FramePublisher::send_contacts() {
 void FramePublisher::send_held(bool quiet) {
   of_held_.look(held_topic_.readers());
   outbox_.set_held_wanted(of_held_.readers > 0);
+  if (of_held_.readers == 0) held_.epoch = 0;  // old news to who comes next
   const bool is_new = outbox_.take(held_);
   const bool again = (of_held_.joined || (quiet && of_held_.is_new())) && held_.epoch != 0;
   if (of_held_.readers == 0 || !(is_new || again)) return;

@@ -160,7 +160,7 @@ bool Outbox::take(HeldList& held) {
 }
 
 void Outbox::set_wanted(std::atomic<bool>& flag, bool wanted) {
-  if (!flag.exchange(wanted) && wanted && on_wanted_) on_wanted_();
+  if (flag.exchange(wanted) != wanted && on_wanted_) on_wanted_();
 }
 
 void Outbox::set_poses_wanted(bool wanted) {
