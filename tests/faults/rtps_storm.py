@@ -238,7 +238,7 @@ class Daemon:
     def __init__(self, directory, domain):
         self.directory, self.domain = directory, str(domain)
         self.process = subprocess.Popen(
-            [f"{directory}/poinsotd", "run", WORLD, "--domain", self.domain], stdout=subprocess.PIPE,
+            [f"{directory}/poinsotd", "run", WORLD, "--domain", self.domain, "--take-over"], stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY)))
         self.process.stdout.readline()
 

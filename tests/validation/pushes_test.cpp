@@ -266,8 +266,12 @@ void run(const BodyDef& body, const std::vector<Sent>& all) {
   }
   const Vec3 dP = momentum(layer.world().y, 0) - P0, dL = angular_momentum(layer.world().y, 0) - L0;
   EXPECT_GT(closed.scale_P, 0);
-  if (closed.knows_dP) EXPECT_LE((dP - closed.dP).norm(), kTolerance * closed.scale_P);
-  if (closed.knows_dL) EXPECT_LE((dL - closed.dL).norm(), kTolerance * closed.scale_L);
+  if (closed.knows_dP) {
+    EXPECT_LE((dP - closed.dP).norm(), kTolerance * closed.scale_P);
+  }
+  if (closed.knows_dL) {
+    EXPECT_LE((dL - closed.dL).norm(), kTolerance * closed.scale_L);
+  }
 }
 
 // Every kind × axes × point × start × body --------------------------------------------------------

@@ -12,7 +12,7 @@
 
 namespace poinsot {
 
-inline constexpr std::int64_t kMaxGap = 1 << 20;             // sequence numbers in one GAP
+inline constexpr std::int64_t kMaxGap = 1 << 16;             // sequence numbers in one GAP
 inline constexpr std::uint32_t kMaxSample = 256u << 20;      // [bytes]: a body of many meshes
 inline constexpr std::uint32_t kMaxCommandSample = 1 << 20;  // [bytes]: a fragment to spawn
 

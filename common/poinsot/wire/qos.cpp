@@ -148,19 +148,22 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
   udp->maxMessageSize = kMaxMessage;
   udp->maxInitialPeersRange = static_cast<std::uint32_t>(kMaxLocalParticipants);
   if (!options.lan) udp->interfaceWhiteList.emplace_back(kLoopback);
-  auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
-  shared_memory->segment_size(segment_size(options.bodies));
-  shared_memory->max_message_size(kMaxMessage);
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports = {
-      guarded(udp, options.commands_only ? kMaxCommandSample : kMaxSample), shared_memory};
+      guarded(udp, options.commands_only ? kMaxCommandSample : kMaxSample)};
 
   // Discovery goes over UDP alone, data over either: shared memory under a number of our own.
   auto& wire = qos.wire_protocol();
   const eprosima::fastrtps::rtps::Locator_t any_udp;  // any allowed address, the port of our number
   wire.builtin.metatrafficUnicastLocatorList.push_back(any_udp);
   wire.default_unicast_locator_list.push_back(any_udp);
-  add_queue(*shared_memory, wire.default_unicast_locator_list);
+  if (options.shared_memory) {
+    auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
+    shared_memory->segment_size(segment_size(options.bodies));
+    shared_memory->max_message_size(kMaxMessage);
+    qos.transport().user_transports.push_back(shared_memory);
+    add_queue(*shared_memory, wire.default_unicast_locator_list);
+  }
 
   auto& discovery = wire.builtin.discovery_config;
   discovery.leaseDuration = milliseconds(kLeaseMs);

@@ -1,5 +1,6 @@
 #include "poinsot/presentation/body_search.h"
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -13,10 +14,9 @@ constexpr std::size_t kLongestSuggestedName = 64;
 }  // namespace
 
 std::string Suggestions::nearest(const std::string& name, const World& world) {
-  if (name.size() > kLongestSuggestedName || left_ <= 0 || world.names.size() > names_left_)
-    return {};
+  if (name.size() > kLongestSuggestedName || left_ <= 0 || names_left_ == 0) return {};
   --left_;
-  names_left_ -= world.names.size();
+  names_left_ -= std::min(names_left_, world.names.size());
   const std::vector<std::string_view> names(world.names.begin(), world.names.end());
   return did_you_mean(name, names);
 }

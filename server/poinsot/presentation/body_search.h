@@ -11,7 +11,8 @@
 namespace poinsot {
 
 // Looking for the nearest name costs far more than the rest of a refusal, so a flood of misspelt
-// names must not make a frame late: this many names are compared at most, in one go of commands.
+// names must not make a frame late: in one go of commands it is done a few times, and no more once
+// so many names were compared.
 class Suggestions {
  public:
   // ", did you mean 'x'?" or nothing.
@@ -19,7 +20,7 @@ class Suggestions {
 
  private:
   int left_ = 8;  // times
-  std::size_t names_left_ = 100'000;
+  std::size_t names_left_ = 20'000;
 };
 
 std::optional<Eigen::Index> find_body(BodyId id, const std::string& name, const World& world);

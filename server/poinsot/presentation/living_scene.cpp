@@ -1,6 +1,5 @@
 #include "poinsot/presentation/living_scene.h"
 
-#include <algorithm>
 #include <map>
 #include <span>
 #include <string>
@@ -41,14 +40,6 @@ void fix_rest_lengths(Scene& scene) {
       const Vec3 at_b = def.b.empty() ? def.point_b : in_W(def.b, def.point_b);
       def.rest_length = (in_W(def.a, def.point_a) - at_b).norm();
     }
-}
-
-// Bytes that an archive takes as one piece.
-std::string as_text(const std::vector<std::byte>& bytes) {
-  std::string text(bytes.size(), '\0');
-  std::transform(bytes.begin(), bytes.end(), text.begin(),
-                 [](std::byte byte) { return static_cast<char>(byte); });
-  return text;
 }
 
 }  // namespace
@@ -141,11 +132,13 @@ void LivingScene::become(std::shared_ptr<const Scene> scene, std::uint64_t diges
   find_absent();
 }
 
-const std::vector<std::byte>& LivingScene::original_bytes() const {
+// As a text, which an archive takes as one piece.
+const std::string& LivingScene::original_bytes() const {
   if (!original_bytes_) {
     ByteWriter out;
     out(*original_);
-    original_bytes_ = std::make_shared<const std::vector<std::byte>>(out.take());
+    const auto* const first = reinterpret_cast<const char*>(out.bytes().data());
+    original_bytes_ = std::make_shared<const std::string>(first, out.bytes().size());
   }
   return *original_bytes_;
 }
@@ -153,7 +146,7 @@ const std::vector<std::byte>& LivingScene::original_bytes() const {
 void LivingScene::save(ByteWriter& out) const {
   const bool differs = scene_ != original_;
   out(digest_, differs);
-  if (differs) out(as_text(original_bytes()));
+  if (differs) out(original_bytes());
 }
 
 void LivingScene::restore(ByteReader& in, std::shared_ptr<const Scene> scene) {
@@ -162,16 +155,14 @@ void LivingScene::restore(ByteReader& in, std::shared_ptr<const Scene> scene) {
   bool differs = false;
   in(digest, differs);
   if (differs) {
-    std::string text;
-    in(text);
-    const auto view = std::as_bytes(std::span(text));
-    std::vector<std::byte> bytes(view.begin(), view.end());
+    std::string bytes;
+    in(bytes);
     if (bytes != original_bytes()) {
       Scene original;
-      ByteReader of_original(bytes);
+      ByteReader of_original(std::as_bytes(std::span(bytes)));
       of_original(original);
       original_ = std::make_shared<const Scene>(std::move(original));
-      original_bytes_ = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+      original_bytes_ = std::make_shared<const std::string>(std::move(bytes));
     }
   } else if (original_ != scene) {
     original_ = scene;

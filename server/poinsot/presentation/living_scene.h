@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <set>
-#include <vector>
+#include <string>
 
 #include "poinsot/base/archive.h"
 #include "poinsot/scene/scene.h"
@@ -55,10 +55,10 @@ class LivingScene {
   Scene& change();
   void find_absent();
   void become(std::shared_ptr<const Scene> scene, std::uint64_t digest);
-  const std::vector<std::byte>& original_bytes() const;
+  const std::string& original_bytes() const;
 
   std::shared_ptr<const Scene> original_;
-  mutable std::shared_ptr<const std::vector<std::byte>> original_bytes_;  // once asked for
+  mutable std::shared_ptr<const std::string> original_bytes_;  // once asked for
   std::shared_ptr<const Scene> scene_;
   mutable bool is_shared_ = true;  // also with original_
   bool rests_are_fixed_ = false;   // every spring has a rest length of its own

@@ -156,9 +156,10 @@ class FrameLoop {
   std::uint64_t late_inputs_ = 0;
 
   Recording recording_;
-  bool record_failed_ = false;        // since the last report
-  std::int64_t last_autosave_ = 0;    // [ns]
-  std::uint64_t autosaved_hash_ = 0;  // of the state that was saved
+  bool record_failed_ = false;                         // since the last report
+  std::int64_t last_autosave_ = 0;                     // [ns]
+  std::pair<std::uint64_t, std::uint64_t> autosaved_;  // the state's hash; accepted_, for what is
+                                                       // held is in the hash from the next frame on
 
   CommandInbox::Batch batch_;
   std::vector<Reply> replies_;

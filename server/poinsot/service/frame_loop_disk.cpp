@@ -51,6 +51,7 @@ void FrameLoop::restore_from_disk(const RunControl& control) {
 }
 
 void FrameLoop::record(const RunControl& control) {
+  drop_failed_recording();
   if (control.name.empty()) return end_recording(control);
   if (recording_.active())
     return answer(control, ResultCode::incorrect_state,
@@ -80,9 +81,9 @@ std::shared_ptr<CommandLogWriter> FrameLoop::begin_recording(const std::string& 
 void FrameLoop::end_recording(const RunControl& control) {
   if (!recording_.active())
     return answer(control, ResultCode::incorrect_state, "no log is being written");
-  report();
   // The last to let go of the writer waits for the disk: that is the worker.
   auto log = std::make_shared<std::shared_ptr<CommandLogWriter>>(recording_.end());
+  report();
   const auto work = [log](Reply& reply) {
     if ((*log)->close()) return;
     reply.code = ResultCode::operation_failed;
@@ -108,12 +109,12 @@ void FrameLoop::autosave_now_and_then() {
 
 bool FrameLoop::is_unsaved() const {
   return options_.autosave_ns > 0 && options_.store.autosave &&
-         layer_.snapshot().state_hash != autosaved_hash_;
+         autosaved_ != std::pair(layer_.snapshot().state_hash, accepted_);
 }
 
 void FrameLoop::autosave() {
   last_autosave_ = SteadyTime::now();
-  autosaved_hash_ = layer_.snapshot().state_hash;
+  autosaved_ = {layer_.snapshot().state_hash, accepted_};
   auto checkpoint = layer_.make_checkpoint("auto-" + std::to_string(layer_.frame()));
   disk_.post(
       [save = options_.store.autosave, checkpoint = std::move(checkpoint)] { save(*checkpoint); });

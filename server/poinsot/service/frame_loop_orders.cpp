@@ -125,6 +125,8 @@ void FrameLoop::obey(const Order& order) {
       return answer(control, ResultCode::ok, "");
     case ControlAction::release:
       return obey_release(order);
+    case ControlAction::restore:
+      return obey_restore(order);
     default:
       return obey_layer(order);
   }

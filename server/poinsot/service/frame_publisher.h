@@ -8,7 +8,6 @@
 #pragma once
 
 #include <chrono>
-#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <mutex>
@@ -68,12 +67,12 @@ class FramePublisher {
   std::vector<ImpactNotice> impacts_;
   RunReport report_;
   SceneChange change_;
-  std::vector<NamedBody> bodies_;  // that there are
   std::deque<std::pair<std::chrono::steady_clock::time_point, BodyInfo>> removed_;
   ContactSnapshot contacts_;
   HeldList held_;
   // Readers at the last look, and whether one joined since the newest was written. A reader that
-  // we have met may not have met us yet and miss what is written now: for a second it is new.
+  // we have met may not have met us yet (Cyclone DDS: for more than a second) and miss what is
+  // written now: for three seconds it is new.
   struct Audience {
     using Clock = std::chrono::steady_clock;
 
@@ -84,7 +83,7 @@ class FramePublisher {
     void look(int now) {
       if (now <= std::exchange(readers, now)) return;
       joined = true;
-      new_until = Clock::now() + std::chrono::seconds(1);
+      new_until = Clock::now() + std::chrono::seconds(3);
     }
     bool is_new() const { return readers > 0 && Clock::now() < new_until; }
   };

@@ -31,7 +31,8 @@ class SupervisorTest : public testing::Test {
     return supervise({.first = script(body), .again = script(body)}, logger_);
   }
 
-  const std::filesystem::path runs_ = test::temp_path("supervisor_runs");
+  const test::TempDirectory directory_;
+  const std::filesystem::path runs_ = directory_.path() / "runs";
   const Logger logger_ = [] {
     Logger logger = make_logger("test", spdlog::level::off, 0);
     logger->set_level(spdlog::level::off);
