@@ -77,7 +77,8 @@ TEST(Checkpoint, ThatIsDamagedIsPassedOverForTheOneBefore) {
 TEST(Checkpoint, IsKeptWhereTheEnvironmentSays) {
   const test::TempDirectory directory;
   ASSERT_EQ(setenv("POINSOT_DATA_DIR", directory.path().c_str(), 1), 0);
-  const TemporaryFile scene("other.yaml", "world: other\nbodies: [{name: a, mass: 1}]\n");
+  const TemporaryFile scene("other.yaml",
+                            "world: other\nbodies: [{name: a, shape: {sphere: 0.1}, mass: 1}]\n");
   const Daemon daemon(scene.path(), {"--paused"});
   unsetenv("POINSOT_DATA_DIR");
   client_json({"save", "here", "--disk"});

@@ -59,7 +59,8 @@ TEST_F(Streams, ThatMatchAPatternFollowSpawnedBodies) {
   EXPECT_EQ(watcher.next()["bodies"].size(), 1u);
   const TemporaryFile fragment(
       "new.yaml",
-      "bodies: [{name: new1, mass: 1, position: [0, 20, 0]}, {name: new10, mass: 1}]\n");
+      "bodies: [{name: new1, shape: {sphere: 0.1}, mass: 1, position: [0, 20, 0]}, {name: new10, "
+      "shape: {sphere: 0.1}, mass: 1, position: [0, 30, 0]}]\n");
   FreeWorld::json({"spawn", fragment.path()});
   Json bodies;
   for (int frames = 0; frames < 600 && bodies.size() < 2; ++frames)
