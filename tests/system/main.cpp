@@ -1,4 +1,5 @@
-// The system tests; called as `system_tests hold DOMAIN BODY`, the client of holding_client.h.
+// The system tests; called as `system_tests push|hold|block DOMAIN BODY`, a client of
+// holding_client.h.
 
 #include <string>
 
@@ -7,8 +8,11 @@
 #include "system/holding_client.h"
 
 int main(int argc, char** argv) {
-  if (argc == 4 && std::string(argv[1]) == "hold")
-    return poinsot::hold(std::stoi(argv[2]), argv[3]);
+  using namespace poinsot;
+  const std::string role = argc == 4 ? argv[1] : "";
+  if (role == "push") return hold(std::stoi(argv[2]), argv[3], Hold::duration);
+  if (role == "hold") return hold(std::stoi(argv[2]), argv[3], Hold::until_cleared);
+  if (role == "block") return block(std::stoi(argv[2]));
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

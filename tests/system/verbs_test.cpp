@@ -84,16 +84,15 @@ TEST_F(Verbs, APushThatIsHeldIsListedUntilItIsCleared) {
 TEST_F(Verbs, ADragBringsABodyThereWithoutOvershoot) {
   client_json({"drag", "probe", "--to", "1,0,0"});
   double last = 0;
-  for (int i = 0; i < 40; ++i) {
-    client_json({"step", "3"});
+  for (int i = 0; i < 6; ++i) {
+    client_json({"step", "10"});
     const double x = state_of("probe")["position"][0];
     ASSERT_LT(x, 1 + 1e-9);
     ASSERT_GE(x, last - 1e-9);
     last = x;
     // Critical damping from rest: x = 1 − (1 + ωt) exp(−ωt).
-    const double t = 3 * (i + 1) / kFrameRate, omega = 6.64 / 0.3;
+    const double t = 10 * (i + 1) / kFrameRate, omega = 6.64 / 0.3;
     ASSERT_NEAR(x, 1 - (1 + omega * t) * std::exp(-omega * t), 1e-6) << t;
-    if (t > 1) break;
   }
   // Another target is the same drag, moved.
   client_json({"drag", "probe", "--to", "0,0,0"});
@@ -243,8 +242,12 @@ TEST(Interrupt, LeavesNothingInSharedMemory) {
     const Files made = made_by(process.id(), before);
     process.signal(SIGINT);
     EXPECT_EQ(process.wait(), 0) << verb[0] << process.errors();
-    for (const std::string& file : made)
+    // Not its receive queue: the library keeps that as long as the daemon, which wrote to it,
+    // lives.
+    for (const std::string& file : made) {
+      if (file.find("fastrtps_port") != std::string::npos) continue;
       EXPECT_FALSE(std::filesystem::exists(file)) << verb[0] << " left " << file;
+    }
   }
 }
 

@@ -89,6 +89,7 @@ ClientOptions client_options(const Context& context) {
   options.partition = flags.bus.partition;
   options.discovery_server = flags.bus.discovery_server;
   options.poses = std::nullopt;
+  options.shared_memory = false;
   options.stop = context.stop;
   return options;
 }
@@ -116,6 +117,13 @@ Client connect(const Context& context) {
 Client connect(const Context& context, const PoseFilter& filter) {
   ClientOptions options = client_options(context);
   options.poses = filter;
+  options.shared_memory = true;
+  return connect(context, options);
+}
+
+Client connect_to_listen(const Context& context) {
+  ClientOptions options = client_options(context);
+  options.shared_memory = true;
   return connect(context, options);
 }
 

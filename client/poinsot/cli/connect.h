@@ -16,7 +16,7 @@ namespace poinsot {
 // --world, --domain, --listen, --partition, --discovery-server, --timeout.
 void add_connection_options(CLI::App& app, ConnectionFlags& flags);
 
-// A client as the options say, that receives no poses.
+// A client as the options say, that asks and leaves: no poses, no shared memory.
 ClientOptions client_options(const Context& context);
 
 // Waits for the daemon; says "waiting for server…" on stderr if it is not there at once. Throws
@@ -24,6 +24,7 @@ ClientOptions client_options(const Context& context);
 Client connect(const Context& context, const ClientOptions& options);
 Client connect(const Context& context);                            // client_options
 Client connect(const Context& context, const PoseFilter& filter);  // that receives these poses
+Client connect_to_listen(const Context& context);                  // that receives other streams
 
 // Fast DDS's own log lines to the tool's log, for the whole process.
 void route_log(const Logger& logger);

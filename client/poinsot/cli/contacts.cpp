@@ -17,7 +17,7 @@ bool describes(const Roster& roster, const ContactSnapshot& contacts) {
 }
 
 ExitCode show_contacts(const Context& context, const ContactsOptions& options) {
-  Client client = connect(context);
+  Client client = connect_to_listen(context);
   Roster roster(client.scene(context.flags.timeout), options.bodies);
   double frame_rate = client.report(context.flags.timeout).frame_rate;
   if (!options.json && !put(kContactLinesTitle)) return ExitCode::ok;

@@ -14,7 +14,7 @@ class Events {
   Events(const Context& context, const EventsOptions& options)
       : context_(context),
         options_(options),
-        client_(connect(context)),
+        client_(connect_to_listen(context)),
         roster_(client_.scene(context.flags.timeout), options.bodies) {}
 
   ExitCode run() {

@@ -20,7 +20,7 @@ class Meter {
   Meter(const Context& context, const HzOptions& options)
       : options_(options),
         client_(options.topic == MeteredTopic::poses ? connect(context, PoseFilter{})
-                                                     : connect(context)) {}
+                                                     : connect_to_listen(context)) {}
 
   ExitCode run() {
     const std::string_view topic = name_of<MeteredTopic>(kMeteredTopicNames, options_.topic);

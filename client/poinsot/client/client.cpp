@@ -37,6 +37,7 @@ BusOptions bus_options(const ClientOptions& options) {
   bus.lan = options.lan;
   bus.partition = options.partition;
   bus.discovery_server = options.discovery_server;
+  bus.shared_memory = options.shared_memory;
   return bus;
 }
 

@@ -7,7 +7,7 @@ namespace poinsot {
 
 void SceneBook::add(BodyInfo body) {
   if (body.removed) {
-    const auto sheet = sheets_.find(newest_session_);
+    const auto sheet = sheets_.find(body.session);
     if (sheet == sheets_.end()) return;
     sheet->second.bodies.erase(body.id);
     sheet->second.removal_came_last = true;

@@ -3,8 +3,8 @@
 //
 // A daemon is known by its session. A report names a revision of the scene and how many bodies it
 // has; a body carries the revision that it came with. Word of a removal carries nothing but the
-// body's handle, and who joins gets none of earlier ones: of the first report's revision the number
-// of bodies decides alone, later the last change must have come too.
+// body's handle and the session, and who joins gets none of earlier ones: of the first report's
+// revision the number of bodies decides alone, later the last change must have come too.
 
 #pragma once
 

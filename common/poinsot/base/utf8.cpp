@@ -1,5 +1,7 @@
 #include "poinsot/base/utf8.h"
 
+#include <algorithm>
+
 namespace poinsot {
 namespace {
 
@@ -30,6 +32,23 @@ bool is_printable_utf8(std::string_view text) {
     text.remove_prefix(length);
   }
   return true;
+}
+
+bool are_printable_lines(std::string_view text) {
+  return to_printable_lines(text) == text;
+}
+
+std::string to_printable_lines(std::string_view text) {
+  std::string lines;
+  while (!text.empty()) {
+    const std::size_t length = text[0] == '\n' ? 1 : character_length(text);
+    if (length == 0)
+      lines += '?';
+    else
+      lines += text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return lines;
 }
 
 }  // namespace poinsot

@@ -40,4 +40,10 @@ void Checks::text(std::string_view value, std::string_view name, std::size_t lim
   require(is_printable_utf8(value), std::string(name) + " is not printable UTF-8");
 }
 
+void Checks::lines(std::string_view value, std::string_view name, std::size_t limit) {
+  require(value.size() <= limit,
+          std::string(name) + " is longer than " + std::to_string(limit) + " bytes");
+  require(are_printable_lines(value), std::string(name) + " is not printable UTF-8");
+}
+
 }  // namespace poinsot

@@ -32,6 +32,8 @@ class Checks {
   void unit(const Quat& value, std::string_view name);
   // Printable UTF-8, at most `limit` bytes.
   void text(std::string_view value, std::string_view name, std::size_t limit);
+  // The same in lines.
+  void lines(std::string_view value, std::string_view name, std::size_t limit);
 
  private:
   std::string reason_;

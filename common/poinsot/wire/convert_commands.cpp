@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "poinsot/base/limits.h"
+#include "poinsot/base/utf8.h"
 #include "poinsot/wire/checks.h"
 #include "poinsot/wire/convert.h"
 
@@ -200,7 +201,8 @@ std::string to_message(const Reply& in, msg::v2::CommandReply& out) {
   out.seq(in.seq);
   out.epoch(in.epoch);
   out.code(static_cast<std::uint8_t>(in.code));
-  out.text(std::string(cut(in.message, kMaxMessageLength)));
+  // A message may quote what somebody sent, in escapes too: the reader is to show it all the same.
+  out.text(std::string(cut(to_printable_lines(in.message), kMaxMessageLength)));
   out.first_frame(in.first_frame);
   out.last_frame(in.last_frame);
   out.state_hash(in.state_hash);
@@ -219,7 +221,7 @@ std::string from_message(const msg::v2::CommandReply& in, Reply& out) {
                              [&](const auto& row) { return row.value == out.code; }),
                  "code " + std::to_string(in.code()) + " is unknown");
   out.message = in.text().c_str();
-  checks.text(out.message, "text", kMaxMessageLength);
+  checks.lines(out.message, "text", kMaxMessageLength);
   out.first_frame = in.first_frame();
   out.last_frame = in.last_frame();
   out.state_hash = in.state_hash();

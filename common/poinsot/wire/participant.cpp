@@ -201,6 +201,11 @@ dds::Topic* BusCore::topic(const std::string& name, dds::TypeSupport type) {
   return topic;
 }
 
+void BusCore::forget(dds::Topic* topic) {
+  const std::lock_guard lock(topics_mutex_);
+  participant_->delete_topic(topic);  // refused while another endpoint uses it
+}
+
 Participant::Participant(const BusOptions& options)
     : impl_(std::make_unique<Impl>(Impl{std::make_shared<BusCore>(options)})) {}
 Participant::~Participant() = default;

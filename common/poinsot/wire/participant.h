@@ -27,6 +27,9 @@ struct BusOptions {
   // "host:port" of a discovery server (`fastdds discovery`), which makes participants known to one
   // another instead of greetings; empty: none.
   std::string discovery_server = {};
+  // False: UDP alone, for who comes, asks little and leaves. Whoever wrote to a participant through
+  // shared memory keeps its receive queue, 26 kB and a file, until it ends itself.
+  bool shared_memory = true;
 };
 
 enum class BusLogLevel { error, warning };

@@ -60,6 +60,9 @@ class BusCore {
   eprosima::fastdds::dds::Topic* topic(const std::string& name,
                                        eprosima::fastdds::dds::TypeSupport type);
 
+  // Nobody of this participant uses the topic any more, or not this one.
+  void forget(eprosima::fastdds::dds::Topic* topic);
+
   eprosima::fastdds::dds::Publisher* publisher() const { return publisher_; }
   eprosima::fastdds::dds::Subscriber* subscriber() const { return subscriber_; }
   const WorldDirectory& directory() const { return directory_; }

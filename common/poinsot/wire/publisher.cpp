@@ -17,9 +17,9 @@ struct Publisher<Message>::Impl {
   using Support = typename MessageType<Message>::Support;
 
   Impl(std::shared_ptr<BusCore> bus, std::string_view world, std::string_view suffix)
-      : core(std::move(bus)) {
+      : core(std::move(bus)), is_one_of_many(!suffix.empty()) {
     const std::string name = checked_topic_name(world, kTopicName<Message>, suffix);
-    dds::Topic* topic = core->topic(name, dds::TypeSupport(new Support));
+    topic = core->topic(name, dds::TypeSupport(new Support));
     dds::DataWriterQos qos = core->publisher()->get_default_datawriter_qos();
     set_writer_qos(topic_qos(kTopicName<Message>), qos);
     writer = core->publisher()->create_datawriter(topic, qos);
@@ -27,11 +27,14 @@ struct Publisher<Message>::Impl {
   }
   ~Impl() {
     if (writer != nullptr) core->publisher()->delete_datawriter(writer);
+    if (is_one_of_many) core->forget(topic);
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
   std::shared_ptr<BusCore> core;
+  dds::Topic* topic = nullptr;
+  bool is_one_of_many = false;  // topics with a suffix come and go
   dds::DataWriter* writer = nullptr;
   typename Support::type sample;  // reused
 };

@@ -45,6 +45,9 @@ constexpr std::uint32_t kPoseBytes = 112;      // of one body in a frame
 constexpr std::uint32_t kFramesInSegment = 6;  // fewer, and frames arrive by repair only
 constexpr std::uint32_t kMaxMessage = 65500;   // [bytes] one datagram; larger samples are fragments
 constexpr std::uint32_t kSocketBuffer = 4 * kMegabyte;
+// Messages that wait in a receive queue in shared memory: a frame of 100 000 bodies is 172. Whoever
+// wrote to a queue keeps it, 26 kB, to its own end.
+constexpr std::uint32_t kQueue = 256;
 constexpr int kLeaseMs = 3000;  // who is not heard of for so long is gone
 constexpr const char* kLoopback = "127.0.0.1";
 // Of the server with number 0, as `fastdds discovery -i 0` starts it.
@@ -148,19 +151,23 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
   udp->maxMessageSize = kMaxMessage;
   udp->maxInitialPeersRange = static_cast<std::uint32_t>(kMaxLocalParticipants);
   if (!options.lan) udp->interfaceWhiteList.emplace_back(kLoopback);
-  auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
-  shared_memory->segment_size(segment_size(options.bodies));
-  shared_memory->max_message_size(kMaxMessage);
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports = {
-      guarded(udp, options.commands_only ? kMaxCommandSample : kMaxSample), shared_memory};
+      guarded(udp, options.commands_only ? kMaxCommandSample : kMaxSample)};
 
   // Discovery goes over UDP alone, data over either: shared memory under a number of our own.
   auto& wire = qos.wire_protocol();
   const eprosima::fastrtps::rtps::Locator_t any_udp;  // any allowed address, the port of our number
   wire.builtin.metatrafficUnicastLocatorList.push_back(any_udp);
   wire.default_unicast_locator_list.push_back(any_udp);
-  add_queue(*shared_memory, wire.default_unicast_locator_list);
+  if (options.shared_memory) {
+    auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
+    shared_memory->segment_size(segment_size(options.bodies));
+    shared_memory->max_message_size(kMaxMessage);
+    shared_memory->port_queue_capacity(kQueue);
+    qos.transport().user_transports.push_back(shared_memory);
+    add_queue(*shared_memory, wire.default_unicast_locator_list);
+  }
 
   auto& discovery = wire.builtin.discovery_config;
   discovery.leaseDuration = milliseconds(kLeaseMs);

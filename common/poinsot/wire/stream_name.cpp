@@ -11,7 +11,7 @@
 namespace poinsot {
 namespace {
 
-constexpr double kMaxRate = 1e6;  // [Hz]
+constexpr double kLeastRate = 1e-3, kMaxRate = 1e6;  // [Hz]
 
 bool is_plain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
@@ -98,8 +98,9 @@ bool matches_pattern(std::string_view pattern, std::string_view name) {
 }  // namespace
 
 std::string stream_suffix(const PoseFilter& filter) {
-  if (!(filter.rate >= 0 && filter.rate <= kMaxRate))
-    throw Error("rate " + number(filter.rate) + " is not between 0 and " + number(kMaxRate));
+  if (filter.rate != 0 && !(filter.rate >= kLeastRate && filter.rate <= kMaxRate))
+    throw Error("rate " + number(filter.rate) + " is not between " + number(kLeastRate) + " and " +
+                number(kMaxRate));
   if (filter.change && !(*filter.change >= 0 && *filter.change <= kMaxPoint))
     throw Error("change " + number(*filter.change) + " is not between 0 and " + number(kMaxPoint));
   std::string suffix;
@@ -120,7 +121,7 @@ std::optional<PoseFilter> parse_stream_suffix(std::string_view suffix) {
   if (const auto rate = take(suffix, "rate")) {
     const auto text = decoded(*rate);
     const auto value = text ? parse_number(*text, kMaxRate) : std::nullopt;
-    if (!value || *value == 0) return std::nullopt;
+    if (!value || *value < kLeastRate) return std::nullopt;
     filter.rate = *value;
   }
   if (const auto change = take(suffix, "change")) {

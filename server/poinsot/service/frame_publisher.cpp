@@ -56,7 +56,9 @@ void FramePublisher::send(bool quiet) {
   Elapsed lap;
   {
     const Stopwatch::Lap timer(lap);
-    // A report tells how many bodies there are: it follows their descriptions.
+    // What was handed over later is taken earlier: so nobody reads a reply before the frame and the
+    // report that it speaks of, or a report before the bodies that it counts.
+    const bool has_replies = outbox_.take(replies_);
     const bool has_report = outbox_.take(report_);
     send_scene();
     send_impacts();
@@ -64,8 +66,7 @@ void FramePublisher::send(bool quiet) {
     send_held(quiet);
     send_poses(quiet);
     if (has_report) write_report();
-    // Last: who reads a reply finds the frame and the report that it speaks of.
-    if (outbox_.take(replies_))
+    if (has_replies)
       for (const Reply& reply : replies_) write(reply_topic_, reply);
   }
   const std::lock_guard lock(mutex_);
@@ -91,15 +92,16 @@ void FramePublisher::send_scene() {
     gone.removed = true;
     write(scene_topic_, gone);
     removed_.push_back({std::chrono::steady_clock::now(), gone});
-    std::erase_if(bodies_, [id](const NamedBody& body) { return body.id == id; });
+    streams_.remove(id);
   }
   for (BodyInfo& body : change_.added) {
     body.session = session_;
     write(scene_topic_, body);
-    std::erase_if(bodies_, [&](const NamedBody& known) { return known.id == body.id; });
-    bodies_.push_back({body.id, body.name});
+    streams_.add({body.id, body.name});
+    // A reset or a restore brings back what was removed, under its old id.
+    std::erase_if(removed_, [&](const auto& entry) { return entry.second.id == body.id; });
   }
-  streams_.set_bodies(bodies_);
+  streams_.match_anew();
 }
 
 // Late joiners need not hear of bodies that have long been gone.

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <chrono>
-#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <mutex>
@@ -68,7 +67,6 @@ class FramePublisher {
   std::vector<ImpactNotice> impacts_;
   RunReport report_;
   SceneChange change_;
-  std::vector<NamedBody> bodies_;  // that there are
   std::deque<std::pair<std::chrono::steady_clock::time_point, BodyInfo>> removed_;
   ContactSnapshot contacts_;
   HeldList held_;

@@ -72,8 +72,11 @@ void Outbox::push(SceneChange change) {
       scene_ = std::move(change);
     } else {
       // What came and is gone again before it was sent is not told as new.
-      for (const BodyId id : change.removed)
-        std::erase_if(scene_.added, [id](const BodyInfo& body) { return body.id == id; });
+      std::vector<BodyId> gone = change.removed;
+      std::ranges::sort(gone);
+      std::erase_if(scene_.added, [&gone](const BodyInfo& body) {
+        return std::ranges::binary_search(gone, body.id);
+      });
       scene_.removed.insert(scene_.removed.end(), change.removed.begin(), change.removed.end());
       std::ranges::move(change.added, std::back_inserter(scene_.added));
     }

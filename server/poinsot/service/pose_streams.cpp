@@ -16,8 +16,17 @@ PoseStreams::PoseStreams(Participant& participant, std::string world, std::uint6
       logger_(std::move(logger)),
       failures_(std::chrono::seconds(1)) {}
 
-void PoseStreams::set_bodies(std::vector<NamedBody> bodies) {
-  bodies_ = std::move(bodies);
+void PoseStreams::add(NamedBody body) {
+  if (body.id.slot >= bodies_.size()) bodies_.resize(body.id.slot + std::size_t{1});
+  const std::uint32_t slot = body.id.slot;
+  bodies_[slot] = std::move(body);
+}
+
+void PoseStreams::remove(BodyId id) {
+  if (id.slot < bodies_.size() && bodies_[id.slot].id == id) bodies_[id.slot] = {};
+}
+
+void PoseStreams::match_anew() {
   for (auto& [suffix, stream] : streams_) stream.filter.set_bodies(bodies_);
 }
 

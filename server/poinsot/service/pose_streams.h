@@ -23,7 +23,10 @@ class PoseStreams {
 
   PoseStreams(Participant& participant, std::string world, std::uint64_t session, Logger logger);
 
-  void set_bodies(std::vector<NamedBody> bodies);
+  // What comes into the scene and goes; afterwards streams are matched anew.
+  void add(NamedBody body);
+  void remove(BodyId id);
+  void match_anew();
   // Makes and drops streams as readers came and went. Costs nothing if none did.
   void look();
   // The newest frame, or the same again when nothing newer came. True if a sample was written.
@@ -45,7 +48,7 @@ class PoseStreams {
   Participant& participant_;
   std::string world_;
   std::uint64_t session_;
-  std::vector<NamedBody> bodies_;
+  std::vector<NamedBody> bodies_;          // by slot; without generation: nobody
   std::map<std::string, Stream> streams_;  // by suffix
   std::uint64_t changes_ = 0;              // of discovery, at the last look
   std::atomic<std::uint32_t> count_ = 0;

@@ -29,6 +29,7 @@ bool same(const Pose& a, const Pose& b) {
 SceneChange SceneChanges::since_last(const PresentationLayer& layer) {
   SceneChange change;
   const std::uint32_t revision = layer.scene_revision();
+  const bool anew = std::exchange(epoch_, layer.epoch()) != layer.epoch();
   if (std::exchange(revision_, revision) == revision) return change;
   const std::vector<BodyDef>& bodies = layer.scene().bodies;
   for (std::size_t i = bodies.size(); i < told_.size(); ++i)
@@ -40,7 +41,7 @@ SceneChange SceneChanges::since_last(const PresentationLayer& layer) {
     Told& told = told_[i];
     if (told.id && told.id != id) change.removed.push_back(told.id);
     const bool moved = body.is_static && !same(told.pose, body.pose);
-    if (id && (told.id != id || moved)) change.added.push_back(info_of(body, id, revision));
+    if (id && (anew || told.id != id || moved)) change.added.push_back(info_of(body, id, revision));
     told = {id, body.pose};
   }
   return change;

@@ -23,8 +23,9 @@ struct SceneChange {
 
 class SceneChanges {
  public:
-  // What changed since the last call; all bodies in the first one. Empty, at no cost, while the
-  // scene's revision stays.
+  // What changed since the last call; all bodies in the first one, and when an epoch began with
+  // another scene: the same id may be another body there. Empty, at no cost, while the scene's
+  // revision stays.
   SceneChange since_last(const PresentationLayer& layer);
 
  private:
@@ -33,6 +34,7 @@ class SceneChanges {
     Pose pose;  // of a static body
   };
   std::uint32_t revision_ = 0;
+  std::uint32_t epoch_ = 0;
   std::vector<Told> told_;  // by place
 };
 

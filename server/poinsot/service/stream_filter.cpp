@@ -1,5 +1,6 @@
 #include "poinsot/service/stream_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +18,7 @@ double turned(const Quat& a, const Quat& b) {
 void StreamFilter::set_bodies(std::span<const NamedBody> bodies) {
   std::fill(wanted_.begin(), wanted_.end(), 0u);
   for (const NamedBody& body : bodies) {
+    if (!body.id) continue;
     if (body.id.slot >= wanted_.size()) wanted_.resize(body.id.slot + 1, 0);
     if (matches(filter_.match, body.name)) wanted_[body.id.slot] = body.id.generation;
   }
@@ -24,7 +26,7 @@ void StreamFilter::set_bodies(std::span<const NamedBody> bodies) {
 }
 
 bool StreamFilter::take(const PoseSnapshot& frame, std::int64_t now, PoseSnapshot& out) {
-  const bool known = frame.epoch == epoch_ && frame.frame == frame_;
+  const bool known = frame.epoch == epoch_ && frame.frame == frame_ && frame.state_hash == hash_;
   if ((known && !joined_) || !is_due(now)) return false;
   // A complete sample for who joins, and after a reset, when bodies may be anywhere.
   const bool complete = !filter_.change || joined_ || frame.epoch != epoch_;
@@ -45,6 +47,7 @@ bool StreamFilter::take(const PoseSnapshot& frame, std::int64_t now, PoseSnapsho
   }
   epoch_ = frame.epoch;
   frame_ = frame.frame;
+  hash_ = frame.state_hash;
   if (!complete && out.bodies.empty()) return false;
   joined_ = false;
   set_next_due(now);
@@ -55,7 +58,7 @@ bool StreamFilter::take(const PoseSnapshot& frame, std::int64_t now, PoseSnapsho
 void StreamFilter::set_next_due(std::int64_t now) {
   if (filter_.rate == 0) return;
   const auto period = static_cast<std::int64_t>(1e9 / filter_.rate);
-  due_ += period;
+  due_ = std::min(due_ + period, now + period);  // who joins early delays nobody
   if (due_ <= now) due_ = now - now % period + period;
 }
 

@@ -23,7 +23,7 @@ class StreamFilter {
  public:
   explicit StreamFilter(PoseFilter filter) : filter_(std::move(filter)) {}
 
-  // The bodies that there are from now on.
+  // The bodies that there are from now on; those without a generation are nobody.
   void set_bodies(std::span<const NamedBody> bodies);
   // Somebody began to read: what is sent next is complete, and soon.
   void join() { joined_ = true; }
@@ -49,7 +49,8 @@ class StreamFilter {
   std::vector<Sent> sent_;             // per slot, if changes are asked for
   bool joined_ = true;
   std::uint32_t epoch_ = 0;  // of the frame sent last
-  std::uint64_t frame_ = 0;  // … and its index
+  std::uint64_t frame_ = 0;  // … its index …
+  std::uint64_t hash_ = 0;   // … and its hash: a paused run may change
   std::int64_t due_ = 0;     // [ns]
 };
 

@@ -31,5 +31,13 @@ TEST(Utf8, RefusesIllFormedBytes) {
   EXPECT_FALSE(is_printable_utf8("\xC3("));             // no continuation
 }
 
+TEST(Utf8, LinesArePrintableOrMadeSo) {
+  EXPECT_TRUE(are_printable_lines("Würfel\n\nbox"));
+  EXPECT_FALSE(are_printable_lines("a\rb"));
+  EXPECT_EQ(to_printable_lines("Würfel\nbox"), "Würfel\nbox");
+  EXPECT_EQ(to_printable_lines("\r\x1B[\xC2\x85\xC3("), "??[???(");
+  EXPECT_EQ(to_printable_lines(""), "");
+}
+
 }  // namespace
 }  // namespace poinsot

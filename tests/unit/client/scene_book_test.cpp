@@ -14,8 +14,9 @@ BodyInfo body(std::uint64_t session, std::uint32_t slot, std::uint32_t revision 
   return info;
 }
 
-BodyInfo removed(std::uint32_t slot) {
+BodyInfo removed(std::uint64_t session, std::uint32_t slot) {
   BodyInfo info;
+  info.session = session;
   info.id = {slot, 1};
   info.removed = true;
   return info;
@@ -78,7 +79,7 @@ TEST(SceneBook, FollowsSpawnsAndRemovals) {
   EXPECT_TRUE(book.is_complete());
   book.add(report(7, 2, 3));
   EXPECT_FALSE(book.is_complete());
-  book.add(removed(0));
+  book.add(removed(7, 0));
   EXPECT_TRUE(book.is_complete());
   EXPECT_EQ(book.bodies().front().id.slot, 1u);
 }
@@ -90,7 +91,7 @@ TEST(SceneBook, AnEqualNumberIsNotEnoughWhileTheLastBodyIsMissing) {
   book.add(body(7, 1));
   book.add(report(7, 2, 3));  // one removed, one spawned
   EXPECT_FALSE(book.is_complete());
-  book.add(removed(0));
+  book.add(removed(7, 0));
   EXPECT_FALSE(book.is_complete());
   book.add(body(7, 2, 3));
   EXPECT_TRUE(book.is_complete());
@@ -115,7 +116,7 @@ TEST(SceneBook, DoesNotWaitForABodyThatIsGoneSince) {
   book.add(poses(7, 11, {0, 1}));
   book.add(report(7, 1, 3, 12));
   book.add(body(7, 1, 2));
-  book.add(removed(1));
+  book.add(removed(7, 1));
   EXPECT_TRUE(book.is_complete());
 }
 

@@ -192,6 +192,16 @@ TEST(Convert, ALongReplyIsCutBetweenCharacters) {
   EXPECT_EQ(back.message, std::string(kMaxMessageLength - 1, 'a'));
 }
 
+TEST(Convert, AReplyArrivesWhateverItQuotes) {
+  Reply reply = sample::reply();
+  reply.message = "2:1: first\n3:1: key '\x1B[2J\x07', \xC3 and é";
+  msg::v2::CommandReply wire;
+  Reply back;
+  ASSERT_EQ(to_message(reply, wire), "");
+  ASSERT_EQ(from_message(wire, back), "");
+  EXPECT_EQ(back.message, "2:1: first\n3:1: key '?[2J?', ? and é");
+}
+
 TEST(Convert, WhatDoesNotFitIsNotSent) {
   msg::v2::PoseFrame frame;
   EXPECT_NE(to_message(sample::poses(0, kMaxBodies + 1), frame), "");
