@@ -8,8 +8,17 @@
 #include <vector>
 
 #include "poinsot/presentation/presentation_layer.h"
+#include "support/scene_builder.h"
 
 namespace poinsot::test {
+
+// Boxes in the air, without gravity; the second has its centre of mass off its origin.
+inline Scene floor_and_two() {
+  Scene scene = empty_scene();
+  scene.bodies = {floor(), box("a", Vec3(0, 0, 3)), box("b", Vec3(3, 0, 3))};
+  scene.bodies[2].mass_properties.center_of_mass = Vec3(0.1, 0, 0);
+  return scene;
+}
 
 inline WrenchCommand push(std::uint64_t client, std::uint64_t seq, const std::string& body = "box",
                           const Vec3& force = Vec3(1, 0, 0)) {
@@ -70,6 +79,12 @@ inline Reply remove(PresentationLayer& layer, const std::string& body) {
   Order of_body = order(ControlAction::remove);
   of_body.control.body_name = body;
   return layer.obey(of_body);
+}
+
+inline Order set_state(const std::string& body) {
+  Order of_body = order(ControlAction::set_state);
+  of_body.control.body_name = body;
+  return of_body;
 }
 
 inline Reply reset(PresentationLayer& layer, std::uint8_t scope) {

@@ -84,6 +84,10 @@ void HeldWrenches::set_tethers(CollisionLayer& collision, std::uint64_t frame) {
   collision.set_tethers(tethers_);
 }
 
+void HeldWrenches::hand_on_again(CollisionLayer& collision) const {
+  if (!tethers_.empty()) collision.set_tethers(tethers_);
+}
+
 void HeldWrenches::kick(CollisionLayer& collision, std::uint64_t frame) {
   std::uint64_t next = kForever;
   const World& world = std::as_const(collision).world();

@@ -1,8 +1,10 @@
 #include "poinsot/presentation/command_check.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+
+#include "poinsot/presentation/store_name.h"
 
 namespace poinsot {
 namespace {
@@ -25,11 +27,6 @@ std::optional<Refusal> check_tether(const WrenchCommand& command) {
   if (auto r = check_vector("target", command.target, "m", kMaxPoint)) return r;
   if (auto r = check_coefficient("stiffness", command.stiffness, "N/m", kMaxStiffness)) return r;
   return check_coefficient("damping", command.damping, "N·s/m", kMaxStiffness);
-}
-
-bool is_store_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         c == '-' || c == '.';
 }
 
 }  // namespace
@@ -86,11 +83,10 @@ std::optional<Refusal> check_state(const RunControl& control) {
 }
 
 std::optional<Refusal> check_store_name(std::string_view name) {
-  const bool good = !name.empty() && name.size() <= kMaxStoreName && name.front() != '.' &&
-                    std::ranges::all_of(name, is_store_letter);
-  if (good) return std::nullopt;
-  return invalid("a name must be 1 to " + std::to_string(kMaxStoreName) +
-                 " letters, digits, '_', '-' or '.', not beginning with '.'");
+  if (std::string fault = store_name_fault(name); !fault.empty()) return invalid(std::move(fault));
+  if (!is_autosave_name(name)) return std::nullopt;
+  return invalid(std::string(name).append(
+      ": a name of autosaves, of which only the last are kept; take another"));
 }
 
 }  // namespace poinsot

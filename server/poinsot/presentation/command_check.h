@@ -29,7 +29,7 @@ std::optional<Refusal> check_scope(const RunControl& control);
 std::optional<Refusal> check_state(const RunControl& control);
 inline constexpr double kUnitSlack = 1e-6;  // [-] of the norm of an orientation
 
-// The name of a checkpoint, see kMaxStoreName.
+// The name under which a client may save.
 std::optional<Refusal> check_store_name(std::string_view name);
 
 }  // namespace poinsot

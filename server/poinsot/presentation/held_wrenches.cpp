@@ -66,10 +66,11 @@ HeldWrenches::HeldWrenches(double frame_rate, std::uint64_t revision)
     : frame_rate_(frame_rate), revision_(revision) {}
 
 void HeldWrenches::accept(std::span<const WrenchCommand> commands, const World& world,
-                          std::uint64_t next, std::uint32_t epoch, std::vector<Reply>& replies) {
+                          std::uint64_t next, std::uint32_t epoch, Suggestions& suggestions,
+                          std::vector<Reply>& replies) {
   POINSOT_ASSERT(std::is_sorted(commands.begin(), commands.end(), by_key));
   sweep(next);
-  Moment moment{world, next, epoch, {}};
+  Moment moment{world, next, epoch, suggestions};
   for (const WrenchCommand& command : commands) {
     Reply& reply = replies.emplace_back();
     reply.client = command.client;

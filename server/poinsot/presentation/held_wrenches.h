@@ -40,13 +40,16 @@ class HeldWrenches {
   // Appends one reply per command, in order. The commands are sorted by (client, seq); `next` is
   // the frame that will be advanced next, `epoch` the run's.
   void accept(std::span<const WrenchCommand> commands, const World& world, std::uint64_t next,
-              std::uint32_t epoch, std::vector<Reply>& replies);
+              std::uint32_t epoch, Suggestions& suggestions, std::vector<Reply>& replies);
   // Ends, from the next frame on, what the client holds and what does not outlive it.
   void release(std::uint64_t client, std::uint64_t next);
   // All that clients hold goes; the scene's stays.
   void release_all_clients();
   // What is held on a body that goes. To be called while it is still there.
   void remove_body(Eigen::Index column, CollisionLayer& collision);
+
+  // After a frozen body was set and moves again: the layer may have left its tethers out meanwhile.
+  void hand_on_again(CollisionLayer& collision) const;
 
   // Whether what is held in `frame` differs from what was last applied; if not, apply_to() has
   // nothing to do.
@@ -76,7 +79,7 @@ class HeldWrenches {
     const World& world;
     std::uint64_t next;
     std::uint32_t epoch;
-    Suggestions suggestions;
+    Suggestions& suggestions;
   };
 
   std::optional<Refusal> take(const WrenchCommand& command, Moment& moment, Reply& reply);

@@ -73,12 +73,9 @@ std::optional<Refusal> PresentationLayer::spawn(const Order& order, Reply& reply
 }
 
 std::optional<Refusal> PresentationLayer::find(const RunControl& control, Eigen::Index& column,
-                                               Reply& reply) const {
+                                               Reply& reply) {
   const auto found = find_body(control.body, control.body_name, world());
-  if (!found) {
-    Suggestions suggestions;
-    return unknown_body(control.body, control.body_name, world(), suggestions);
-  }
+  if (!found) return unknown_body(control.body, control.body_name, world(), suggestions_);
   column = *found;
   reply.body = world().ids[static_cast<std::size_t>(column)];
   return std::nullopt;
@@ -104,6 +101,7 @@ std::optional<Refusal> PresentationLayer::set_state(const RunControl& control, R
   if (auto refusal = check_state(control)) return refusal;
   Eigen::Index i = 0;
   if (auto refusal = find(control, i, reply)) return refusal;
+  const bool frozen = world().motion[static_cast<std::size_t>(i)] == Motion::frozen;
   const bool fixed = world().motion[static_cast<std::size_t>(i)] == Motion::fixed;
   if (fixed && (control.sets_linear || control.sets_angular))
     return invalid("body '" + world().names[static_cast<std::size_t>(i)] +
@@ -115,6 +113,7 @@ std::optional<Refusal> PresentationLayer::set_state(const RunControl& control, R
   if (control.sets_linear) velocity.linear = control.linear_velocity;
   if (control.sets_angular) velocity.angular = control.angular_velocity;
   collision_.set_state(i, pose, velocity);
+  if (frozen) held_.hand_on_again(collision_);
   if (fixed) scene_.move_static(static_cast<std::size_t>(i), pose);
   refresh();
   return std::nullopt;

@@ -28,10 +28,15 @@ void PresentationLayer::accept(std::span<const WrenchCommand> commands,
                                std::vector<Reply>& replies) {
   if (commands.empty()) return;
   const Stopwatch::Lap lap(times_.presentation);
-  held_.accept(commands, world(), frame_ + 1, epoch_, replies);
+  held_.accept(commands, world(), frame_ + 1, epoch_, suggestions_, replies);
+}
+
+void PresentationLayer::begin_turn() {
+  suggestions_ = {};
 }
 
 void PresentationLayer::advance_frame() {
+  begin_turn();
   ++frame_;
   if (held_.changes(frame_)) held_.apply_to(collision_, frame_);
   collision_.advance_to(static_cast<double>(frame_) / frame_rate());  // all physics is in here
@@ -42,7 +47,8 @@ void PresentationLayer::advance_frame() {
 void PresentationLayer::hold_scene_wrenches() {
   if (scene().wrenches.empty()) return;
   std::vector<Reply> replies;
-  held_.accept(scene_wrenches(scene(), world()), world(), frame_ + 1, epoch_, replies);
+  held_.accept(scene_wrenches(scene(), world()), world(), frame_ + 1, epoch_, suggestions_,
+               replies);
   for (const Reply& reply : replies) POINSOT_CHECK(reply.code == ResultCode::ok);  // validate()
 }
 

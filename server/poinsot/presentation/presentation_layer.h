@@ -32,6 +32,9 @@ class PresentationLayer {
   // The scene must be valid (validate()).
   explicit PresentationLayer(Scene scene);
 
+  // Before the commands and orders of a turn, unless a frame was advanced since the last.
+  void begin_turn();
+
   // Takes commands for the frames to come, paused or not. Appends one reply per command, in order.
   // The commands are sorted by (client, seq).
   void accept(std::span<const WrenchCommand> commands, std::vector<Reply>& replies);
@@ -106,7 +109,7 @@ class PresentationLayer {
   std::optional<Refusal> set_state(const RunControl& control, Reply& reply);
   std::optional<Refusal> save(const RunControl& control, Reply& reply);
   std::optional<Refusal> restore(const Order& order);
-  std::optional<Refusal> find(const RunControl& control, Eigen::Index& column, Reply& reply) const;
+  std::optional<Refusal> find(const RunControl& control, Eigen::Index& column, Reply& reply);
   void remove_body(Eigen::Index i);
 
   void reset(std::uint8_t scope);
@@ -117,6 +120,7 @@ class PresentationLayer {
   LivingScene scene_;
   CollisionLayer collision_;
   HeldWrenches held_;
+  Suggestions suggestions_;  // left in this turn
   std::uint64_t frame_ = 0;
   std::uint32_t epoch_ = 1;
   PoseSnapshot snapshot_;

@@ -1,6 +1,7 @@
 #include "poinsot/runner/store.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <system_error>
 #include <tuple>
@@ -15,18 +16,6 @@ namespace poinsot {
 namespace {
 
 constexpr std::string_view kCheckpoint = ".checkpoint", kLog = ".log";
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         c == '-' || c == '.';
-}
-
-// "auto-17": a name of the autosaves and nobody else's.
-bool is_autosave(std::string_view name) {
-  if (!name.starts_with(Store::kAutosave)) return false;
-  name.remove_prefix(Store::kAutosave.size());
-  return !name.empty() && name.find_first_not_of("0123456789") == std::string_view::npos;
-}
 
 // Newest first; of equal times the longer name, then the later, so that of a series the larger
 // number counts.
@@ -54,17 +43,19 @@ std::filesystem::path file_in(const std::filesystem::path& directory, std::strin
   return directory / std::string(name).append(extension);
 }
 
-}  // namespace
-
-std::string store_name_fault(std::string_view name) {
-  if (!name.empty() && name.size() <= kMaxStoreName && name.front() != '.' &&
-      std::ranges::all_of(name, is_letter))
-    return {};
-  std::string fault = "'";
-  fault.append(name.substr(0, kMaxStoreName)).append("' is no name: it must be 1 to ");
-  fault.append(std::to_string(kMaxStoreName));
-  return fault + " letters, digits, '_', '-' or '.', and not begin with '.'";
+// The clock may have been set back since the others were written. Where it cannot be done the file
+// keeps its time.
+void make_newest(const std::filesystem::path& file, std::string_view name,
+                 const std::vector<StoredFile>& files) {
+  const auto other = std::ranges::find_if(files, [&](const auto& f) { return f.name != name; });
+  std::error_code ignored;
+  if (other == files.end() || std::filesystem::last_write_time(file, ignored) > other->written)
+    return;
+  constexpr std::chrono::milliseconds kStep(1);  // that file systems tell apart
+  std::filesystem::last_write_time(file, other->written + kStep, ignored);
 }
+
+}  // namespace
 
 Store::Store(std::filesystem::path directory, const std::string& world)
     : directory_(std::move(directory) / world) {
@@ -94,7 +85,9 @@ std::filesystem::path Store::log_file(std::string_view name) const {
 }
 
 void Store::save(const Checkpoint& checkpoint) const {
-  write_checkpoint(checkpoint_file(checkpoint.name), checkpoint);
+  const std::filesystem::path file = checkpoint_file(checkpoint.name);
+  write_checkpoint(file, checkpoint);
+  make_newest(file, checkpoint.name, checkpoints());
 }
 
 std::shared_ptr<const Checkpoint> Store::load(std::string_view name) const {
@@ -130,7 +123,7 @@ std::vector<StoredFile> Store::logs() const {
 void Store::prune_autosaves(std::size_t keep) const {
   std::size_t seen = 0;
   for (const StoredFile& file : checkpoints()) {
-    if (!is_autosave(file.name) || ++seen <= keep) continue;
+    if (!is_autosave_name(file.name) || ++seen <= keep) continue;
     std::error_code gone;  // another daemon may have been faster
     std::filesystem::remove(checkpoint_file(file.name), gone);
   }

@@ -16,11 +16,9 @@
 #include <vector>
 
 #include "poinsot/presentation/checkpoint.h"
+#include "poinsot/presentation/store_name.h"
 
 namespace poinsot {
-
-// Why this cannot be the name of a checkpoint or a log; empty if it can.
-std::string store_name_fault(std::string_view name);
 
 struct StoredFile {
   std::string name;
@@ -42,7 +40,8 @@ class Store {
   std::filesystem::path checkpoint_file(std::string_view name) const;
   std::filesystem::path log_file(std::string_view name) const;
 
-  // Under the checkpoint's own name; one that is there is replaced. Throws std::runtime_error.
+  // Under the checkpoint's own name; one that is there is replaced. It is then the newest by
+  // its file's time, whatever the clock says. Throws std::runtime_error.
   void save(const Checkpoint& checkpoint) const;
   // Throws Error that names what is wrong, and for a name that is not there the nearest.
   std::shared_ptr<const Checkpoint> load(std::string_view name) const;
@@ -52,10 +51,8 @@ class Store {
   std::vector<StoredFile> checkpoints() const;  // newest first
   std::vector<StoredFile> logs() const;
 
-  // Removes all but the newest `keep` checkpoints of the series kAutosave.
+  // Removes all but the newest `keep` checkpoints of the autosaves.
   void prune_autosaves(std::size_t keep) const;
-
-  static constexpr std::string_view kAutosave = "auto-";
 
  private:
   std::filesystem::path directory_;

@@ -7,6 +7,7 @@
 namespace poinsot {
 
 void apply_turn(TurnRecord& turn, PresentationLayer& layer, std::vector<Reply>& replies) {
+  layer.begin_turn();
   std::span<const WrenchCommand> left = turn.wrenches;
   const auto accept = [&](std::size_t count) {
     layer.accept(left.first(count), replies);

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 
@@ -16,11 +18,31 @@ namespace {
 
 constexpr mode_t kReadableByAll = 0644;
 
+constexpr std::string_view kPartial = ".partial";
+
 // The name ".<file>.<process>.partial": no checkpoint or log begins with a dot.
 std::filesystem::path partial(const std::filesystem::path& file) {
   std::string name = file.filename().string();
-  name.insert(0, 1, '.').append(".").append(std::to_string(::getpid())).append(".partial");
+  name.insert(0, 1, '.').append(".").append(std::to_string(::getpid())).append(kPartial);
   return file.parent_path() / name;
+}
+
+// Who writes has it locked until it has its last name. Numbers of processes do not tell who died:
+// they come again, and mean another one in another container.
+bool lock(int descriptor) {
+  return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+}
+
+// What processes that died while they wrote have left behind.
+void remove_left_partials(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with('.') || !name.ends_with(kPartial)) continue;
+    const FileHandle left(
+        ::open(entry.path().c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
+    if (left.is_open() && lock(left.get())) ::unlink(entry.path().c_str());
+  }
 }
 
 }  // namespace
@@ -36,11 +58,14 @@ void write_whole_file(const std::filesystem::path& file, std::span<const std::by
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) fail(error.value());
+  remove_left_partials(directory);
 
-  FileHandle handle(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC,
-                           kReadableByAll));
+  const FileHandle handle(::open(
+      temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, kReadableByAll));
+  // Not every file system can lock; it is then removed by nobody else either.
+  if (handle.is_open()) lock(handle.get());
   if (!handle.is_open() || !write_all(handle.get(), bytes) || !bring_to_disk(handle.get()) ||
-      !handle.close() || std::rename(temporary.c_str(), file.c_str()) != 0)
+      std::rename(temporary.c_str(), file.c_str()) != 0)
     fail(errno);
   // The name lasts only when the directory is on the disk as well; some file systems cannot say.
   const FileHandle names(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -11,7 +11,8 @@ namespace poinsot {
 
 // Writes beside the file, brings the bytes to the disk, and puts them in its place in one step: who
 // reads, or looks after the machine has died, finds the old bytes or the new ones. Makes the
-// directory if it is not there. Throws std::runtime_error that names the file.
+// directory if it is not there, and removes from it what dead processes left half written. Throws
+// std::runtime_error that names the file.
 void write_whole_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 // Throws Error that names the file if it cannot be read or is longer than `most` bytes. A symbolic

@@ -152,6 +152,7 @@ void FrameLoop::obey_inbox() {
   if (batch_.empty()) return offer();  // a nudge, perhaps
   for (const Reply& result : batch_.results) send(result);
   answer_known();
+  layer_.begin_turn();
   recording_.begin_turn(layer_.frame() + 1, layer_.epoch());
   // Orders split the pushes: what a client sent before its reset is not taken after it.
   std::span<const WrenchCommand> left = batch_.wrenches;

@@ -1,9 +1,9 @@
 // What of the simulation layer crosses frames, as bytes and back (base/archive.h).
 
 #include <algorithm>
-#include <cstring>
 
 #include "poinsot/base/archive.h"
+#include "poinsot/simulation/column_check.h"
 #include "poinsot/simulation/simulation_layer.h"
 
 namespace poinsot {
@@ -24,14 +24,6 @@ void change_motion(World& world, Eigen::Index i, Motion to) {
   } else {
     ByteReader::fail();
   }
-}
-
-bool is_zero(const Wrench& wrench) {
-  return wrench.force.isZero(0) && wrench.torque.isZero(0);
-}
-
-bool same_column(const StateArray& a, const StateArray& b, Eigen::Index i) {
-  return std::memcmp(a.col(i).data(), b.col(i).data(), 13 * sizeof(double)) == 0;
 }
 
 }  // namespace

@@ -2,34 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "poinsot/base/error.h"
-#include "poinsot/simulation/diagnostics.h"
+#include "poinsot/simulation/column_check.h"
 
 namespace poinsot {
 namespace {
 
-// A coordinate beyond this is no physics any more; its square is still finite.
-constexpr double kLargest = 1e100;
-
-// False for NaN as well, and for a quaternion that overflowed while it was made unit.
-bool is_sound(const StateArray& y, Eigen::Index i) {
-  return (y.col(i).array().abs() < kLargest).all() && orientation(y, i).squaredNorm() > 0.5;
-}
-
 bool is_finite(const HeldWrench& w) {
   return w.in_W.force.allFinite() && w.in_W.torque.allFinite() && w.in_B.force.allFinite() &&
          w.in_B.torque.allFinite() && w.moment.allFinite();
-}
-
-bool is_zero(const Wrench& w) {
-  return w.force.isZero(0) && w.torque.isZero(0);
-}
-
-bool same_column(const StateArray& a, const StateArray& b, Eigen::Index i) {
-  return std::memcmp(a.col(i).data(), b.col(i).data(), 13 * sizeof(double)) == 0;
 }
 
 }  // namespace
@@ -69,74 +52,6 @@ SimulationLayer::SimulationLayer(const Scene& scene)
   for (const BodySystem& system : world_.systems) systems_.emplace_back(system.columns.size());
   for (Eigen::Index i = 0; i < world_.size(); ++i) all_.push_back(i);
   own_.emplace_back(world_);
-}
-
-Eigen::Index SimulationLayer::add(const BodyDef& body) {
-  const Eigen::Index i = world_.add(body);
-  const auto k = static_cast<std::size_t>(i);
-  if (k == methods_.size()) {
-    contact_wrenches_.emplace_back();
-    last_good_.conservativeResize(Eigen::NoChange, i + 1);
-    methods_.push_back(Method::none);
-    driven_.push_back(0);
-    memories_.emplace_back();
-    all_.push_back(i);
-    if (flies_free()) {
-      flights_.emplace_back();
-      turning_.emplace_back();
-      turning_known_.push_back(0);
-    }
-  }
-  begin_anew(i);
-  return i;
-}
-
-bool SimulationLayer::remove(Eigen::Index i) {
-  const bool sprung = !world_.systems.empty();
-  if (sprung) drop_springs(i);
-  world_.remove(i);
-  begin_anew(i);
-  return sprung;
-}
-
-void SimulationLayer::drop_springs(Eigen::Index i) {
-  if (in_scene_system(i))
-    for (const Eigen::Index j :
-         world_.systems[static_cast<std::size_t>(world_.system_of[static_cast<std::size_t>(i)])]
-             .columns)
-      memories_[static_cast<std::size_t>(j)] = {};
-  const std::vector<StepMemory> before = std::move(system_memories_);
-  system_memories_.clear();
-  systems_.clear();
-  for (const int s : poinsot::drop_springs(world_, i)) {
-    systems_.emplace_back(world_.systems[systems_.size()].columns.size());
-    system_memories_.push_back(s == kAnother ? StepMemory{} : before[static_cast<std::size_t>(s)]);
-  }
-  own_.front() = SimulationWorker(world_);
-}
-
-void SimulationLayer::set_state(Eigen::Index i, const Pose& pose, const Velocity& velocity) {
-  world_.set_state(i, pose, velocity);
-  begin_anew(i);
-}
-
-// Of what moved the body until now nothing is known any more.
-void SimulationLayer::begin_anew(Eigen::Index i) {
-  const auto k = static_cast<std::size_t>(i);
-  if (is_sound(world_.y, i)) last_good_.col(i) = world_.y.col(i);
-  methods_[k] = Method::none;
-  memories_[k] = {};
-  if (in_system(i)) system_memory(world_.system_of[k]) = {};
-  driven_[k] = is_pushed(i) ? 1 : 0;
-  contact_wrenches_[k] = Wrench{};
-}
-
-void SimulationLayer::kick(Eigen::Index i, const Wrench& impulse) {
-  const double before = kinetic_energy(world_, i);
-  momentum(world_.y, i) += impulse.force;
-  angular_momentum(world_.y, i) += impulse.torque;
-  methods_[static_cast<std::size_t>(i)] = Method::none;
-  total_.work += kinetic_energy(world_, i) - before;
 }
 
 SimulationWorker::SimulationWorker(const World& world) : lone(1) {
@@ -185,24 +100,6 @@ void SimulationLayer::commit(double t_end, const Tally& tally) {
   world_.time = t_end;
 }
 
-// Whether anything but gravity and contacts acts on a body.
-bool SimulationLayer::is_pushed(Eigen::Index i) const {
-  const auto k = static_cast<std::size_t>(i);
-  if (in_system(i) || !world_.held[k].is_zero()) return true;
-  if (world_.drag.empty()) return false;
-  const DragDef& drag = world_.drag[k];
-  return drag.linear > 0 || drag.quadratic > 0 || drag.angular > 0;
-}
-
-bool SimulationLayer::in_system(Eigen::Index i) const {
-  return !world_.systems.empty() && world_.system_of[static_cast<std::size_t>(i)] != World::kLone;
-}
-
-bool SimulationLayer::in_scene_system(Eigen::Index i) const {
-  return in_system(i) && static_cast<std::size_t>(world_.system_of[static_cast<std::size_t>(i)]) <
-                             world_.scene_systems;
-}
-
 // A tethered body that is no system of the scene works with the means of a lone body.
 SimulationLayer::Group SimulationLayer::system_group(int s, std::vector<Workspace>& of_scene,
                                                      Workspace& lone, StepMemory& memory) {
@@ -215,20 +112,6 @@ StepMemory& SimulationLayer::system_memory(int s) {
   const auto k = static_cast<std::size_t>(s);
   if (k < world_.scene_systems) return system_memories_[k];
   return memories_[static_cast<std::size_t>(world_.systems[k].columns[0])];
-}
-
-TetherChange SimulationLayer::set_tethers(std::span<const Tether> tethers) {
-  const double energy = tether_energy(world_);
-  relaid_.clear();
-  const TetherChange change = poinsot::set_tethers(world_, tethers, relaid_);
-  if (change == TetherChange::none) return change;
-  total_.work += tether_energy(world_) - energy;
-  for (const Eigen::Index i : relaid_) {
-    const auto k = static_cast<std::size_t>(i);
-    (in_system(i) ? system_memory(world_.system_of[k]) : memories_[k]) = {};
-  }
-  if (change == TetherChange::joined) own_.front().prepare(world_);
-  return change;
 }
 
 void SimulationLayer::advance(std::span<const Eigen::Index> bodies, double from, double to,

@@ -20,7 +20,8 @@ class HeldSlots : public testing::Test {
  protected:
   Reply accept(const WrenchCommand& command, std::uint64_t next = 1) {
     std::vector<Reply> replies;
-    held_.accept({&command, 1}, layer_.world(), next, 1, replies);
+    Suggestions suggestions;
+    held_.accept({&command, 1}, layer_.world(), next, 1, suggestions, replies);
     return replies.at(0);
   }
   Reply accept_in_slot(WrenchCommand command, std::uint32_t slot, std::uint64_t next = 1,

@@ -34,7 +34,7 @@ class HeldWrenchesTest : public testing::Test {
  protected:
   Reply accept(const WrenchCommand& command, std::uint64_t next = 1) {
     std::vector<Reply> replies;
-    held_.accept({&command, 1}, world_, next, 5, replies);
+    held_.accept({&command, 1}, world_, next, 5, suggestions_, replies);
     EXPECT_EQ(replies.size(), 1u);
     EXPECT_EQ(replies[0].client, command.client);
     EXPECT_EQ(replies[0].seq, command.seq);
@@ -50,6 +50,7 @@ class HeldWrenchesTest : public testing::Test {
   CollisionLayer layer_{scene_of_three()};
   World& world_ = layer_.world();
   HeldWrenches held_{kFrameRate};
+  Suggestions suggestions_;
 };
 
 TEST(FramesOf, RoundsUpAndIsNeverZero) {
@@ -205,9 +206,9 @@ TEST_F(HeldWrenchesTest, SumsDoNotDependOnTheOrderOfArrival) {
     }
   HeldWrenches backwards(kFrameRate);
   std::vector<Reply> replies;
-  held_.accept(commands, world_, 1, 1, replies);
+  held_.accept(commands, world_, 1, 1, suggestions_, replies);
   for (auto command = commands.rbegin(); command != commands.rend(); ++command)
-    backwards.accept({&*command, 1}, world_, 1, 1, replies);
+    backwards.accept({&*command, 1}, world_, 1, 1, suggestions_, replies);
   held_.apply_to(layer_, 1);
   const HeldWrench sum = world_.held[0];
   backwards.apply_to(layer_, 1);

@@ -151,6 +151,22 @@ TEST(Store, OfTheSameTimeTheLargerNumberIsNewer) {
   EXPECT_EQ(names(store.checkpoints()), Names({"auto-10", "auto-9", "auto-8"}));
 }
 
+TEST(Store, WhatIsWrittenAfterTheClockWasSetBackIsTheNewest) {
+  const Store store(test::temp_path("clock"), "arena");
+  for (const int k : {7, 8, 9}) {
+    const std::string name = "auto-" + std::to_string(k);
+    store.save(named(name));
+    set_age(store, name, -3600 - k);  // the clock was an hour ahead
+  }
+  for (const int k : {1, 2}) {  // of another epoch
+    store.save(named("auto-" + std::to_string(k)));
+    store.prune_autosaves(3);
+  }
+  EXPECT_EQ(names(store.checkpoints()), Names({"auto-2", "auto-1", "auto-9"}));
+  std::vector<std::string> faults;
+  EXPECT_EQ(store.load_newest(faults)->name, "auto-2");
+}
+
 TEST(Store, TheEnvironmentSaysWhere) {
   const auto set = [](const char* name, const char* value) {
     if (value == nullptr)
