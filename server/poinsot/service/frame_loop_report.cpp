@@ -5,12 +5,6 @@
 #include "poinsot/service/frame_loop.h"
 
 namespace poinsot {
-namespace {
-
-constexpr std::int64_t kReportInterval = 200'000'000;  // [ns]
-
-}  // namespace
-
 Reply FrameLoop::reply_to(const RunControl& control, ResultCode code,
                           const std::string& message) const {
   Reply reply;
