@@ -49,6 +49,7 @@ FrameLoop::FrameLoop(PresentationLayer& layer, CommandInbox& inbox, Outbox& outb
       paused_(options_.paused),
       epoch_(layer.epoch()) {
   replies_.reserve(CommandInbox::kWrenches);
+  turn_replies_.reserve(CommandInbox::kWrenches + CommandInbox::kOrders);
   report_.body_methods.reserve(layer_.body_methods().size());
   report_.clients.reserve(kMaxClients);
 }
@@ -141,6 +142,8 @@ void FrameLoop::hand_over() {
 }
 
 void FrameLoop::publish() {
+  publish_due_ = in_turn_;
+  if (in_turn_) return;
   outbox_.push(scene_changes_.since_last(layer_));
   outbox_.push(layer_.snapshot());
   offer();
@@ -169,6 +172,7 @@ void FrameLoop::obey_inbox() {
   for (const Reply& result : batch_.results) send(result);
   answer_known();
   recording_.begin_turn(layer_.frame() + 1, layer_.epoch());
+  in_turn_ = true;
   // Orders split the pushes: what a client sent before its reset is not taken after it.
   std::span<const WrenchCommand> left = batch_.wrenches;
   for (const Order& order : batch_.orders) {
@@ -182,7 +186,16 @@ void FrameLoop::obey_inbox() {
   }
   accept(left);
   recording_.end_turn();
+  tell_turn();
   if (idle()) offer();  // what is held may be another list
+}
+
+void FrameLoop::tell_turn() {
+  in_turn_ = false;
+  if (publish_due_) publish();
+  if (std::exchange(report_due_, false)) report();
+  for (const Reply& reply : turn_replies_) send(reply);
+  turn_replies_.clear();
 }
 
 // Sorts the batch; what has been answered before is answered again and goes no further, nor does

@@ -97,6 +97,7 @@ class FrameLoop {
   void begin_pace();
   void obey_inbox();
   void answer_known();
+  void tell_turn();
   void accept(std::span<const WrenchCommand> commands);
   void end_run();
 
@@ -172,6 +173,11 @@ class FrameLoop {
   CommandInbox::Batch batch_;
   std::vector<Reply> replies_;
   std::vector<RunControl> inputs_;
+  // A turn of many orders is told of once, at its end: the poses, the report, then the replies.
+  bool in_turn_ = false;
+  bool publish_due_ = false;
+  bool report_due_ = false;
+  std::vector<Reply> turn_replies_;
   ReplyCache answered_;
   std::uint64_t accepted_ = 0;
   std::uint64_t refused_ = 0;
