@@ -64,6 +64,7 @@ TEST_F(FrameLoopDisk, ASaveSentAgainWhileTheDiskIsSlowIsAnsweredOnce) {
               ResultCode::ok);  // nobody waits for it
     inbox_.push(save(1, 1, "slow"));
   }
+  ask(control(2, 8, ControlAction::step));  // the last one has been taken: the disk is still slow
   disk.set_value();
   EXPECT_EQ(reply_to(1, 1).code, ResultCode::ok);
   ask(control(2, 9, ControlAction::pause));
