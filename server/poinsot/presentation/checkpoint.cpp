@@ -9,6 +9,17 @@
 
 namespace poinsot {
 
+std::shared_ptr<const Checkpoint> with_threads(const std::shared_ptr<const Checkpoint>& checkpoint,
+                                               int threads) {
+  if (threads == 0 || !checkpoint->scene || checkpoint->scene->collision.threads == threads)
+    return checkpoint;
+  auto scene = std::make_shared<Scene>(*checkpoint->scene);
+  scene->collision.threads = threads;
+  auto copy = std::make_shared<Checkpoint>(*checkpoint);
+  copy->scene = std::move(scene);
+  return copy;
+}
+
 std::shared_ptr<const Checkpoint> PresentationLayer::make_checkpoint(std::string name) const {
   const auto checkpoint = std::make_shared<Checkpoint>();
   checkpoint->name = std::move(name);

@@ -23,4 +23,8 @@ struct Checkpoint {
   std::vector<std::byte> state;        // PresentationLayer's, see checkpoint.cpp
 };
 
+// The same checkpoint for another number of threads, which no bit depends on; 0: for its own.
+std::shared_ptr<const Checkpoint> with_threads(const std::shared_ptr<const Checkpoint>& checkpoint,
+                                               int threads);
+
 }  // namespace poinsot

@@ -191,7 +191,7 @@ void HeldWrenches::sweep(std::uint64_t next) {
 
 void HeldWrenches::release(std::uint64_t client, std::uint64_t next) {
   const auto found = clients_.find(client);
-  if (found == clients_.end()) return;
+  if (client == kSceneClient || found == clients_.end()) return;
   note_change(found->second.release(), next);
   next_end_ = 0;
   sweep(next);

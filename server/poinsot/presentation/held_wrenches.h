@@ -42,6 +42,7 @@ class HeldWrenches {
   void accept(std::span<const WrenchCommand> commands, const World& world, std::uint64_t next,
               std::uint32_t epoch, Suggestions& suggestions, std::vector<Reply>& replies);
   // Ends, from the next frame on, what the client holds and what does not outlive it.
+  // The scene never leaves.
   void release(std::uint64_t client, std::uint64_t next);
   // All that clients hold goes; the scene's stays.
   void release_all_clients();

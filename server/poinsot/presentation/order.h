@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ struct Order {
   std::shared_ptr<const std::vector<BodyDef>> fragment = {};
   // For restore: read from disk, because none of the name is in memory.
   std::shared_ptr<const Checkpoint> checkpoint = {};
+  // For a release that the daemon gives itself: it acts after the commands of its client up to this
+  // seq and before those beyond, which came later, perhaps of another process.
+  std::uint64_t after = 0;
 };
 
 }  // namespace poinsot

@@ -17,17 +17,6 @@ std::uint32_t later(std::uint32_t epoch, std::uint32_t epochs_later) {
   return epoch == 0 ? 0 : epoch + epochs_later;  // 0: whichever runs
 }
 
-// The same checkpoint for another number of threads, which no bit depends on.
-std::shared_ptr<const Checkpoint> with_threads(const std::shared_ptr<const Checkpoint>& checkpoint,
-                                               int threads) {
-  if (threads == 0 || checkpoint->scene->collision.threads == threads) return checkpoint;
-  auto scene = std::make_shared<Scene>(*checkpoint->scene);
-  scene->collision.threads = threads;
-  auto copy = std::make_shared<Checkpoint>(*checkpoint);
-  copy->scene = std::move(scene);
-  return copy;
-}
-
 }  // namespace
 
 std::optional<FrameRecord> LogPlayer::advance() {

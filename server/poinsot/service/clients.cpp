@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "poinsot/base/limits.h"
+#include "poinsot/presentation/scene_wrenches.h"
 
 namespace poinsot {
 
@@ -17,6 +18,7 @@ bool Clients::admit(std::uint64_t client, const WriterKey& writer, double cost, 
 
 // The client, told that this writer is one of its own. None: there are too many.
 Clients::Client* Clients::meet(std::uint64_t client, const WriterKey& writer, std::int64_t now) {
+  if (client == kSceneClient) return nullptr;
   auto found = clients_.find(client);
   if (found != clients_.end()) {
     const auto& writers = found->second.writers;
@@ -58,6 +60,8 @@ bool Clients::refuse(std::uint64_t client, std::int64_t now) {
   if (found != clients_.end()) {
     ++found->second.refused;
     if (found->second.refusals.take(1, now)) return true;
+  } else if (client != kSceneClient && strangers_.take(1, now)) {
+    return true;
   }
   ++unanswered_;
   return false;

@@ -36,12 +36,14 @@ class Clients {
   static constexpr std::size_t kClientsOfOneWriter = 64;
   static constexpr std::int64_t kRemembered = 60'000'000'000;  // [ns] of a dead one
 
-  explicit Clients(const ClientLimits& limits) : limits_(limits) {}
+  explicit Clients(const ClientLimits& limits)
+      : limits_(limits), strangers_(limits.refusals_per_second, limits.refusals_at_once, 0) {}
 
   // A command of this client came from this writer. False: it is one too many; it counts as refused
-  // and limited.
+  // and limited. Client 0 is the scene: no writer speaks for it.
   bool admit(std::uint64_t client, const WriterKey& writer, double cost, std::int64_t now);
-  // Whether a refusal given by the receiver is to be answered; counts it as refused.
+  // Whether a refusal given by the receiver is to be answered; counts it as refused. Clients that
+  // are not known, as when there are too many, share what one client has.
   bool refuse(std::uint64_t client, std::int64_t now);
   // The loop has answered a command.
   void count(std::uint64_t client, bool accepted);
@@ -74,6 +76,7 @@ class Clients {
   mutable std::mutex mutex_;
   std::map<std::uint64_t, Client> clients_;
   std::map<WriterKey, std::size_t> clients_of_;  // how many it speaks for
+  TokenBucket strangers_;                        // refusals
   std::uint64_t limited_ = 0;
   std::uint64_t unanswered_ = 0;
 };

@@ -63,6 +63,13 @@ bool CommandInbox::push(Order order) {
 void CommandInbox::push_own(Order order) {
   {
     const std::lock_guard lock(mutex_);
+    const auto note = [&](const auto& commands) {
+      for (const auto& command : commands)
+        if (const auto [client, seq] = key(command); client == order.control.client)
+          order.after = std::max(order.after, seq);
+    };
+    note(pending_.wrenches);
+    note(pending_.orders);
     pending_.own.push_back(std::move(order));
   }
   arrived_.notify_one();
@@ -99,6 +106,12 @@ bool CommandInbox::wait(const std::stop_token& stop, std::int64_t until) {
   if (until == INT64_MAX) return arrived_.wait(lock, stop, something);
   const std::chrono::steady_clock::time_point time{std::chrono::nanoseconds(until)};
   return arrived_.wait_until(lock, stop, time, something);
+}
+
+bool CommandInbox::waits(std::uint64_t client, std::uint64_t seq) const {
+  const std::lock_guard lock(mutex_);
+  const auto same = [&](const auto& command) { return key(command) == std::pair(client, seq); };
+  return std::ranges::any_of(pending_.wrenches, same) || std::ranges::any_of(pending_.orders, same);
 }
 
 void CommandInbox::count_refused() {

@@ -45,6 +45,9 @@ class CommandInbox {
   bool push(Order order);
   bool push(RunControl control) { return push(Order{.control = std::move(control)}); }
 
+  // From any thread: whether such a command waits to be taken.
+  bool waits(std::uint64_t client, std::uint64_t seq) const;
+
   // From within the daemon: never refused; as many as clients and jobs are allowed.
   void push_own(Order order);
   void push_result(Reply reply);
@@ -85,8 +88,8 @@ class CommandInbox {
   std::uint64_t never_got_here_ = 0;
 };
 
-// The number of orders that the daemon gives itself on behalf of a client that is gone: after all
-// of its own, and not for clients to use.
+// The number of orders that the daemon gives itself on behalf of a client that is gone, not for
+// clients to use. Order::after tells which of its commands came before.
 inline constexpr std::uint64_t kOwnSeq = UINT64_MAX;
 
 }  // namespace poinsot

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "poinsot/base/error.h"
+#include "poinsot/presentation/scene_wrenches.h"
 #include "poinsot/protocol/result.h"
 #include "poinsot/scene/fragment.h"
 #include "poinsot/service/steady_time.h"
@@ -79,7 +80,7 @@ template <class Command>
 bool CommandReceiver::drain(Subscriber<Command>& topic, Command& command) {
   const auto malformed = [&](const Malformed& m) {
     inbox_.count_refused();
-    if (clients_.admit(m.client, topic.writer(), 1, SteadyTime::now()))
+    if (m.client == kSceneClient || clients_.admit(m.client, topic.writer(), 1, SteadyTime::now()))
       refuse(m.client, m.seq, ResultCode::invalid_value, m.reason);
     else
       refuse(m.client, m.seq, ResultCode::rate_limited, "more commands than a client may send");
@@ -128,6 +129,7 @@ void CommandReceiver::refuse(std::uint64_t client, std::uint64_t seq, ResultCode
     logger_->warn("command_refused client={} seq={} code={} reason={} more={}", client, seq,
                   name_of<ResultCode>(kResultCodeNames, code), poinsot::quoted(reason), *held_back);
   if (!clients_.refuse(client, SteadyTime::now())) return;  // a flood gets no flood of answers
+  if (inbox_.waits(client, seq)) return;  // sent again: the first one's reply is still to come
   Reply reply;
   reply.client = client;
   reply.seq = seq;

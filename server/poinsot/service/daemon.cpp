@@ -15,12 +15,6 @@ std::uint64_t random_session() {
   return (high << 32 | random()) | 1;  // never 0
 }
 
-std::optional<Trajectory> open_trajectory(const DaemonOptions& options,
-                                          const PresentationLayer& layer) {
-  if (options.trajectory.empty()) return std::nullopt;
-  return std::make_optional<Trajectory>(options.trajectory, layer.world(), layer.frame_rate());
-}
-
 // Segments of dead processes go before the bus is joined, so that restarts do not pile them up.
 BusOptions prepare_bus(const DaemonOptions& options, std::size_t bodies, const Logger& logger) {
   if (const int removed = remove_stale_segments(); removed > 0)
@@ -36,13 +30,12 @@ BusOptions prepare_bus(const DaemonOptions& options, std::size_t bodies, const L
 }  // namespace
 
 Daemon::Daemon(Scene scene, const DaemonOptions& options, Logger logger,
-               std::function<void()> ended)
+               std::function<void()> ended, const std::function<void(const Daemon&)>& before_start)
     : logger_(std::move(logger)),
       world_(options.world.empty() ? scene.world : options.world),
       session_(random_session()),
       store_(open_store(options, world_)),
       layer_(first_state(std::move(scene), options)),
-      trajectory_(open_trajectory(options, layer_)),
       outbox_(layer_.snapshot().bodies.size(), [this] { inbox_.nudge(); }),
       clients_(options.limits),
       loop_(layer_, inbox_, outbox_, clients_, disk_, loop_options(options)),
@@ -54,6 +47,9 @@ Daemon::Daemon(Scene scene, const DaemonOptions& options, Logger logger,
   logger_->info("started world={} session={:016x} domain={} reach={} bodies={}",
                 poinsot::quoted(world_), session_, options.domain, options.lan ? "lan" : "local",
                 layer_.scene().bodies.size());
+  if (before_start) before_start(*this);
+  if (!options.trajectory.empty())
+    trajectory_.emplace(options.trajectory, layer_.world(), layer_.frame_rate());
   loop_thread_ = std::jthread([this, ended = std::move(ended)](const std::stop_token& stop) {
     {
       const Stopwatch::Lap lap(elapsed_);
@@ -68,10 +64,11 @@ Daemon::~Daemon() {
 }
 
 PresentationLayer Daemon::first_state(Scene scene, const DaemonOptions& options) const {
+  const int threads = scene.collision.threads;  // of this run, whatever the checkpoint's had
   PresentationLayer layer(std::move(scene));
   if (!store_) return layer;
   if (const auto checkpoint = first_checkpoint(options, *store_, logger_)) {
-    layer.restore(*checkpoint);
+    layer.restore(*with_threads(checkpoint, threads));
     logger_->info("restored name={} frame={} hash={:016x}", poinsot::quoted(checkpoint->name),
                   checkpoint->frame, checkpoint->state_hash);
   }
@@ -105,6 +102,7 @@ void Daemon::join_threads() {
   loop_thread_.request_stop();
   if (loop_thread_.joinable()) loop_thread_.join();
   receiver_.stop();
+  loop_.refuse_rest();  // what came while the loop ended
   publisher_.stop();
 }
 

@@ -30,9 +30,11 @@ namespace poinsot {
 class Daemon {
  public:
   // Joins the bus and starts the run; calls `ended` from the loop's thread when the last frame of
-  // options.frames is done or a client has asked for the end. Throws Error if the bus cannot be
-  // joined, the trajectory not created or the checkpoint to begin with not read.
-  Daemon(Scene scene, const DaemonOptions& options, Logger logger, std::function<void()> ended);
+  // options.frames is done or a client has asked for the end. `before_start`, if set, is called in
+  // between, when nothing is on disk yet, and may throw. Throws Error if the bus cannot be joined,
+  // the trajectory not created or the checkpoint to begin with not read.
+  Daemon(Scene scene, const DaemonOptions& options, Logger logger, std::function<void()> ended,
+         const std::function<void(const Daemon&)>& before_start = {});
   ~Daemon();
 
   const std::string& world() const { return world_; }

@@ -1,5 +1,6 @@
 #include "poinsot/service/disk_worker.h"
 
+#include <cstdint>
 #include <utility>
 
 namespace poinsot {
@@ -7,9 +8,22 @@ namespace poinsot {
 DiskWorker::DiskWorker() : thread_([this] { run(); }) {}
 
 bool DiskWorker::post(Job job) {
+  return post(std::move(job), kCapacity);
+}
+
+bool DiskWorker::post_always(Job job) {
+  return post(std::move(job), SIZE_MAX);
+}
+
+bool DiskWorker::has_room() {
+  const std::lock_guard lock(mutex_);
+  return !stopping_ && jobs_.size() < kCapacity;
+}
+
+bool DiskWorker::post(Job job, std::size_t capacity) {
   {
     const std::lock_guard lock(mutex_);
-    if (stopping_ || jobs_.size() >= kCapacity) return false;
+    if (stopping_ || jobs_.size() >= capacity) return false;
     jobs_.push_back(std::move(job));
   }
   changed_.notify_one();

@@ -24,10 +24,14 @@ class DiskWorker {
 
   // From any thread. False: full, or stopped; the job is dropped.
   bool post(Job job);
+  // The same for the few that must not be done by who posts: beyond the capacity as well.
+  bool post_always(Job job);
+  bool has_room();
   // Does what is queued, and ends the thread.
   void stop();
 
  private:
+  bool post(Job job, std::size_t capacity);
   void run();
 
   std::mutex mutex_;

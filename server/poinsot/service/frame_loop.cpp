@@ -20,7 +20,16 @@ const RunControl& identity(const Order& order) {
 auto key(const auto& command) {
   return std::pair(identity(command).client, identity(command).seq);
 }
-constexpr auto by_key = [](const auto& a, const auto& b) { return key(a) < key(b); };
+// Where an order of the daemon's own stands among its client's: before what came after it.
+std::uint64_t place(const WrenchCommand& command) {
+  return command.seq;
+}
+std::uint64_t place(const Order& order) {
+  return order.control.seq == kOwnSeq ? order.after + 1 : order.control.seq;
+}
+constexpr auto by_key = [](const auto& a, const auto& b) {
+  return std::pair(identity(a).client, place(a)) < std::pair(identity(b).client, place(b));
+};
 constexpr auto same_key = [](const auto& a, const auto& b) { return key(a) == key(b); };
 
 }  // namespace
@@ -35,10 +44,12 @@ FrameLoop::FrameLoop(PresentationLayer& layer, CommandInbox& inbox, Outbox& outb
       options_(std::move(options)),
       clock_(SteadyTime{}, layer.frame_rate()),
       meter_(layer.frame_rate(), SteadyTime::now()),
+      frame_rate_(layer.frame_rate()),
       scale_(options_.scale),
       paused_(options_.paused),
       epoch_(layer.epoch()) {
   replies_.reserve(CommandInbox::kWrenches);
+  turn_replies_.reserve(CommandInbox::kWrenches + CommandInbox::kOrders);
   report_.body_methods.reserve(layer_.body_methods().size());
   report_.clients.reserve(kMaxClients);
 }
@@ -48,7 +59,8 @@ void FrameLoop::run(const std::stop_token& stop) {
   clock_ = FrameClock(SteadyTime{stop}, layer_.frame_rate());
   if (scale_ > 0) clock_.set_rate(layer_.frame_rate() * scale_);
   begin_pace();
-  if (!options_.record.empty()) begin_recording(options_.record);
+  if (std::string fault; !options_.record.empty() && !begin_recording(options_.record, fault))
+    record_failed_ = true;
   hand_over();
   report();
   if (is_unsaved()) autosave();  // the newest on disk is of this run from its beginning
@@ -91,12 +103,17 @@ bool FrameLoop::await_inputs(const std::stop_token& stop) {
   if (lock_step_.ready()) return true;
   const std::int64_t began = SteadyTime::now();
   while (!lock_step_.ready()) {
-    if (!inbox_.wait(stop, began + lock_step_.timeout_ns())) {
-      if (stop.stop_requested()) return false;
+    const std::int64_t deadline = began + lock_step_.timeout_ns();
+    if (inbox_.wait(stop, std::min(deadline, last_report_ + kReportInterval))) {
+      obey_inbox();
+    } else if (stop.stop_requested()) {
+      return false;
+    } else if (SteadyTime::now() >= deadline) {
       ++late_inputs_;
       break;
     }
-    obey_inbox();
+    autosave_now_and_then();
+    report_now_and_then();
     if (idle() || over()) return false;
   }
   clock_.postpone(SteadyTime::now() - began);
@@ -107,6 +124,7 @@ void FrameLoop::advance(std::int64_t began) {
   layer_.advance_frame();
   ++frames_;
   recording_.frame(layer_.frame(), layer_.snapshot().state_hash);
+  outbox_.push(layer_.impacts());  // here only: another publish tells of the same frame
   hand_over();
   answer_inputs(ResultCode::ok, "");
   const std::int64_t now = SteadyTime::now();
@@ -124,8 +142,9 @@ void FrameLoop::hand_over() {
 }
 
 void FrameLoop::publish() {
+  publish_due_ = in_turn_;
+  if (in_turn_) return;
   outbox_.push(scene_changes_.since_last(layer_));
-  outbox_.push(layer_.impacts());
   outbox_.push(layer_.snapshot());
   offer();
 }
@@ -154,6 +173,7 @@ void FrameLoop::obey_inbox() {
   answer_known();
   layer_.begin_turn();
   recording_.begin_turn(layer_.frame() + 1, layer_.epoch());
+  in_turn_ = true;
   // Orders split the pushes: what a client sent before its reset is not taken after it.
   std::span<const WrenchCommand> left = batch_.wrenches;
   for (const Order& order : batch_.orders) {
@@ -167,7 +187,16 @@ void FrameLoop::obey_inbox() {
   }
   accept(left);
   recording_.end_turn();
+  tell_turn();
   if (idle()) offer();  // what is held may be another list
+}
+
+void FrameLoop::tell_turn() {
+  in_turn_ = false;
+  if (publish_due_) publish();
+  if (std::exchange(report_due_, false)) report();
+  for (const Reply& reply : turn_replies_) send(reply);
+  turn_replies_.clear();
 }
 
 // Sorts the batch; what has been answered before is answered again and goes no further, nor does
@@ -186,7 +215,8 @@ void FrameLoop::answer_known() {
   settle(batch_.wrenches);
   settle(batch_.orders);
   if (batch_.own.empty()) return;
-  std::move(batch_.own.begin(), batch_.own.end(), std::back_inserter(batch_.orders));
+  batch_.orders.insert(batch_.orders.begin(), std::make_move_iterator(batch_.own.begin()),
+                       std::make_move_iterator(batch_.own.end()));
   std::stable_sort(batch_.orders.begin(), batch_.orders.end(), by_key);
 }
 
@@ -206,18 +236,24 @@ void FrameLoop::end_run() {
   std::shared_ptr<CommandLogWriter> log = recording_.end();
   disk_.stop();  // what waits for it is done, and answered below
   log.reset();
+  refuse_rest();
+  report(RunState::quitting);
+}
+
+void FrameLoop::refuse_rest() {
+  const std::string why = "the daemon ends";
   inbox_.take(batch_);
   for (const Reply& result : batch_.results) send(result);
   answer_known();
   for (const Order& order : batch_.orders)
-    if (order.control.seq != kOwnSeq) answer(order.control, ResultCode::operation_failed, why);
+    if (order.control.seq != kOwnSeq)
+      send(reply_to(order.control, ResultCode::operation_failed, why));
   RunControl late;
   for (const WrenchCommand& command : batch_.wrenches) {
     late.client = command.client;
     late.seq = command.seq;
     send(reply_to(late, ResultCode::operation_failed, why));
   }
-  report(RunState::quitting);
 }
 
 }  // namespace poinsot

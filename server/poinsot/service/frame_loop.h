@@ -8,7 +8,8 @@
 // when the disk is done. Steps run as fast as they can; what changes the run's course ends one
 // early.
 //
-// The loop never waits for a disk, the bus or a client that is not in lock step. What leaves a
+// The loop never waits for the bus, a client that is not in lock step, or a disk, but for what
+// `each_frame` does: a trajectory is written there. What leaves a
 // trace in the physics goes through the layer in a turn, so that the log holds all of it.
 
 #pragma once
@@ -68,6 +69,9 @@ class FrameLoop {
   // one thread; that thread alone may use the layer.
   void run(const std::stop_token& stop);
 
+  // After run(), when nothing comes any more: answers what came since its end.
+  void refuse_rest();
+
   std::uint32_t epoch() const { return epoch_; }    // of the run now; from any thread
   std::uint64_t frames() const { return frames_; }  // advanced so far; after run()
 
@@ -93,6 +97,7 @@ class FrameLoop {
   void begin_pace();
   void obey_inbox();
   void answer_known();
+  void tell_turn();
   void accept(std::span<const WrenchCommand> commands);
   void end_run();
 
@@ -110,14 +115,16 @@ class FrameLoop {
   void obey_layer(const Order& order);
   void obey_restore(const Order& order);
   void obey_release(const Order& order);
+  void follow_frame_rate();
   void begin_epoch(ControlAction action);
 
   // What has to do with the disk (frame_loop_disk.cpp).
   bool defer(const RunControl& control, std::function<void(Reply&)> work, Reply reply);
+  void answer_behind(const RunControl& control);
   void save_to_disk(const RunControl& control, Reply reply);
   void restore_from_disk(const RunControl& control);
   void record(const RunControl& control);
-  std::shared_ptr<CommandLogWriter> begin_recording(const std::string& name);
+  std::shared_ptr<CommandLogWriter> begin_recording(const std::string& name, std::string& fault);
   void end_recording(const RunControl& control);
   void drop_failed_recording();
   void let_go(std::shared_ptr<CommandLogWriter> log);
@@ -145,6 +152,7 @@ class FrameLoop {
   PaceMeter meter_;
   bool was_paced_ = false;  // in the last turn
 
+  double frame_rate_;  // [Hz] that the clock and the meter go by
   double scale_;
   bool paused_;
   bool quit_ = false;
@@ -157,6 +165,7 @@ class FrameLoop {
 
   Recording recording_;
   bool record_failed_ = false;                         // since the last report
+  std::atomic<bool> autosave_waits_ = false;           // for the disk, or is being written
   std::int64_t last_autosave_ = 0;                     // [ns]
   std::pair<std::uint64_t, std::uint64_t> autosaved_;  // the state's hash; accepted_, for what is
                                                        // held is in the hash from the next frame on
@@ -164,6 +173,11 @@ class FrameLoop {
   CommandInbox::Batch batch_;
   std::vector<Reply> replies_;
   std::vector<RunControl> inputs_;
+  // A turn of many orders is told of once, at its end: the poses, the report, then the replies.
+  bool in_turn_ = false;
+  bool publish_due_ = false;
+  bool report_due_ = false;
+  std::vector<Reply> turn_replies_;
   ReplyCache answered_;
   std::uint64_t accepted_ = 0;
   std::uint64_t refused_ = 0;
@@ -172,7 +186,8 @@ class FrameLoop {
   // What was handed over last of what is made only when it is wanted; their memory is reused.
   ContactSnapshot contacts_;
   HeldList held_;
-  std::pair<std::uint32_t, std::uint64_t> contacts_told_;  // epoch, frame; 0: none
+  std::pair<std::uint32_t, std::uint64_t> contacts_told_;       // epoch, frame; 0: none
+  static constexpr std::int64_t kReportInterval = 200'000'000;  // [ns]
   static constexpr std::uint64_t kNotTold = UINT64_MAX;
   std::uint64_t held_told_ = kNotTold;  // its revision
 

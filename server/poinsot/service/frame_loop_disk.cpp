@@ -26,8 +26,12 @@ bool FrameLoop::defer(const RunControl& control, std::function<void(Reply&)> wor
     answered_.expect(control.client, control.seq);
     return true;
   }
-  answer(control, ResultCode::operation_failed, "the disk is behind: try again later");
+  answer_behind(control);
   return false;
+}
+
+void FrameLoop::answer_behind(const RunControl& control) {
+  answer(control, ResultCode::operation_failed, "the disk is behind: try again later");
 }
 
 void FrameLoop::save_to_disk(const RunControl& control, Reply reply) {
@@ -61,7 +65,11 @@ void FrameLoop::record(const RunControl& control) {
                   "the daemon keeps nothing on disk: it has no --data");
   if (const std::string fault = store_name_fault(control.name); !fault.empty())
     return answer(control, ResultCode::invalid_value, fault);
-  const auto work = [log = begin_recording(control.name)](Reply& reply) {
+  if (!disk_.has_room()) return answer_behind(control);  // before there is a log
+  std::string failure;
+  const auto log = begin_recording(control.name, failure);
+  if (!log) return answer(control, ResultCode::operation_failed, failure);
+  const auto work = [log](Reply& reply) {
     if (log->wait_until_open()) return;
     reply.code = ResultCode::operation_failed;
     reply.message = log->failure();
@@ -70,17 +78,25 @@ void FrameLoop::record(const RunControl& control) {
   defer(control, work, reply_to(control, ResultCode::ok, ""));
 }
 
-std::shared_ptr<CommandLogWriter> FrameLoop::begin_recording(const std::string& name) {
+// Nothing, and why: it cannot even be begun.
+std::shared_ptr<CommandLogWriter> FrameLoop::begin_recording(const std::string& name,
+                                                             std::string& fault) {
   LogStart start;
   start.checkpoint = layer_.make_checkpoint("");
-  auto log = options_.store.log(name, std::move(start));
-  recording_.begin(name, log, layer_.frame() + 1, layer_.epoch());
-  return log;
+  try {
+    auto log = options_.store.log(name, std::move(start));
+    recording_.begin(name, log, layer_.frame() + 1, layer_.epoch());
+    return log;
+  } catch (const std::exception& error) {
+    fault = error.what();
+    return nullptr;
+  }
 }
 
 void FrameLoop::end_recording(const RunControl& control) {
   if (!recording_.active())
     return answer(control, ResultCode::incorrect_state, "no log is being written");
+  if (!disk_.has_room()) return answer_behind(control);  // the log goes on
   // The last to let go of the writer waits for the disk: that is the worker.
   auto log = std::make_shared<std::shared_ptr<CommandLogWriter>>(recording_.end());
   report();
@@ -100,7 +116,7 @@ void FrameLoop::drop_failed_recording() {
 
 // Its end waits for the disk, so the worker has it.
 void FrameLoop::let_go(std::shared_ptr<CommandLogWriter> log) {
-  disk_.post([log = std::move(log)]() mutable { log.reset(); });
+  disk_.post_always([log = std::move(log)]() mutable { log.reset(); });
 }
 
 void FrameLoop::autosave_now_and_then() {
@@ -114,10 +130,17 @@ bool FrameLoop::is_unsaved() const {
 
 void FrameLoop::autosave() {
   last_autosave_ = SteadyTime::now();
-  autosaved_ = {layer_.snapshot().state_hash, accepted_};
+  if (autosave_waits_) return;  // the disk is slow: the next one is newer
   auto checkpoint = layer_.make_checkpoint("auto-" + std::to_string(layer_.frame()));
-  disk_.post(
-      [save = options_.store.autosave, checkpoint = std::move(checkpoint)] { save(*checkpoint); });
+  autosave_waits_ = true;
+  const auto job = [this, checkpoint = std::move(checkpoint)] {
+    options_.store.autosave(*checkpoint);
+    autosave_waits_ = false;
+  };
+  if (disk_.post(job))
+    autosaved_ = {layer_.snapshot().state_hash, accepted_};
+  else
+    autosave_waits_ = false;
 }
 
 }  // namespace poinsot

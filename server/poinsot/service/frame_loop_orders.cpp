@@ -4,6 +4,7 @@
 #include <string>
 
 #include "poinsot/base/limits.h"
+#include "poinsot/presentation/command_check.h"
 #include "poinsot/presentation/value_check.h"
 #include "poinsot/service/frame_loop.h"
 
@@ -58,6 +59,8 @@ std::optional<Refusal> FrameLoop::check_values(const RunControl& control) const 
         return invalid("value is " + std::to_string(control.value) +
                        ": a time scale is 1e-6 to 1e6, or 0 for as fast as it can");
       return std::nullopt;
+    case ControlAction::reset:
+      return check_scope(control);
     case ControlAction::lock_step:
       if (control.timeout_ns < 0 || control.timeout_ns > kMaxLockStepNs)
         return invalid("timeout_ns is " + std::to_string(control.timeout_ns) +
@@ -214,11 +217,22 @@ void FrameLoop::obey_restore(const Order& order) {
   if (!complete.checkpoint) complete.checkpoint = layer_.find_checkpoint(order.control.name);
   if (!complete.checkpoint && options_.store.read) return restore_from_disk(order.control);
   end_goal(ResultCode::operation_failed, "ended early by restore");
+  if (complete.checkpoint)
+    complete.checkpoint = with_threads(complete.checkpoint, layer_.scene().collision.threads);
   obey_layer(complete);
+}
+
+// A checkpoint may be of a scene with another one.
+void FrameLoop::follow_frame_rate() {
+  frame_rate_ = layer_.frame_rate();
+  meter_ = PaceMeter(frame_rate_, SteadyTime::now());
+  if (scale_ > 0) clock_.set_rate(frame_rate_ * scale_);
+  begin_pace();
 }
 
 void FrameLoop::begin_epoch(ControlAction action) {
   epoch_ = layer_.epoch();
+  if (layer_.frame_rate() != frame_rate_) follow_frame_rate();
   answer_inputs(ResultCode::operation_failed, "ended early by " + name_of(action));
   hand_over();
 }

@@ -5,12 +5,6 @@
 #include "poinsot/service/frame_loop.h"
 
 namespace poinsot {
-namespace {
-
-constexpr std::int64_t kReportInterval = 200'000'000;  // [ns]
-
-}  // namespace
-
 Reply FrameLoop::reply_to(const RunControl& control, ResultCode code,
                           const std::string& message) const {
   Reply reply;
@@ -30,10 +24,11 @@ void FrameLoop::answer(const RunControl& control, ResultCode code, const std::st
 }
 
 void FrameLoop::send(const Reply& reply) {
+  if (reply.seq != 0) answered_.insert(reply);  // seq 0 is nobody's
+  if (in_turn_) return turn_replies_.push_back(reply);
   const bool accepted = reply.code == ResultCode::ok;
   ++(accepted ? accepted_ : refused_);
   clients_.count(reply.client, accepted);
-  if (reply.seq != 0) answered_.insert(reply);  // seq 0 is nobody's
   outbox_.push(reply);
 }
 
@@ -42,6 +37,10 @@ void FrameLoop::report_now_and_then() {
 }
 
 void FrameLoop::report() {
+  if (in_turn_) {
+    report_due_ = true;
+    return;
+  }
   report(idle() ? RunState::paused : RunState::playing);
 }
 

@@ -120,9 +120,17 @@ void run_daemon(Scene scene, const DaemonOptions& options, bool json, StopSignal
                 const Logger& logger, std::ostream& out) {
   route_to(logger);
   const std::string welcome = invitation(scene, options);
-  Daemon daemon(std::move(scene), options, logger, [&signals] { signals.request_stop(); });
+  const auto look = [&](const Daemon& daemon) {
+    if (!options.take_over) refuse_taken_world(daemon, options, signals);
+  };
+  // A run that writes nothing need not wait for the look around.
+  const bool writes =
+      !options.record.empty() || !options.trajectory.empty() || options.autosave.count() > 0;
+  Daemon daemon(
+      std::move(scene), options, logger, [&signals] { signals.request_stop(); },
+      writes ? look : std::function<void(const Daemon&)>{});
   if (!json) out << welcome << std::flush;
-  if (!options.take_over) refuse_taken_world(daemon, options, signals);
+  if (!writes) look(daemon);
   while (!signals.wait_for(1s))
     if (!json) out << status_line(daemon.report()) << std::endl;
   const RunSummary summary = daemon.stop();

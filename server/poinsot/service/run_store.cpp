@@ -22,6 +22,9 @@ std::shared_ptr<const Checkpoint> read(const Store& store, const std::string& na
 }  // namespace
 
 std::optional<Store> open_store(const DaemonOptions& options, const std::string& world) {
+  if (const std::string fault = options.record.empty() ? "" : store_name_fault(options.record);
+      !fault.empty())
+    throw Error("--record: " + fault);
   try {
     return Store(options.data.empty() ? Store::default_directory() : options.data, world);
   } catch (const Error&) {

@@ -76,11 +76,14 @@ int exit_code(const End& end) {
   return to_int(end.told ? ExitCode::ok : ExitCode::failure);
 }
 
-bool ended_well(const End& end) {
+// A mistake on the command line shows at the first start; later the same code says that the world
+// around is not as it was, the bus for one, and may be again.
+bool ended_well(const End& end, bool failed_before) {
   if (end.told) return true;
   if (!WIFEXITED(end.status)) return false;
   const int code = WEXITSTATUS(end.status);
-  return code == to_int(ExitCode::ok) || code == to_int(ExitCode::usage) || code == kCouldNotStart;
+  return code == to_int(ExitCode::ok) || code == kCouldNotStart ||
+         (code == to_int(ExitCode::usage) && !failed_before);
 }
 
 std::string how(int status) {
@@ -98,7 +101,7 @@ int supervise(const Supervision& supervision, const Logger& logger) {
   const std::vector<std::string>* command = &supervision.first;
   while (true) {
     const End end = wait_for(start(*command));
-    if (ended_well(end)) {
+    if (ended_well(end, command == &supervision.again)) {
       sigprocmask(SIG_SETMASK, &before, nullptr);
       return exit_code(end);
     }

@@ -19,9 +19,9 @@ struct Supervision {
   std::chrono::seconds within{10};
 };
 
-// Returns the exit code of the child when it ended well (0), by its own mistake (ExitCode::usage:
-// again would not help) or because it was told to; ExitCode::failure after too many failures.
-// Called before there is any thread, with the signals blocked as StopSignals does.
+// Returns the exit code of the child when it ended well (0), by its own mistake (ExitCode::usage
+// of the first: again would not help) or because it was told to; ExitCode::failure after too many
+// failures. Called before there is any thread, with the signals blocked as StopSignals does.
 int supervise(const Supervision& supervision, const Logger& logger);
 
 }  // namespace poinsot

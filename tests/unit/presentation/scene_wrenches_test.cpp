@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "poinsot/presentation/presentation_layer.h"
 #include "support/scene_builder.h"
 
 namespace poinsot {
@@ -87,6 +88,18 @@ TEST(SceneWrenches, LastForTheirDurationAndAtLeastAFrame) {
   EXPECT_EQ(nanoseconds(0.5), 500'000'000);
   EXPECT_EQ(nanoseconds(1e-12), 1);
   EXPECT_EQ(nanoseconds(1e9), kMaxDurationNs);
+}
+
+TEST(SceneWrenches, AreNotReleasedAsThoughTheSceneWereAClientThatLeft) {
+  Scene scene = two_boxes();
+  scene.wrenches = {wrench("a")};
+  PresentationLayer layer(scene);
+  RunControl release;
+  release.client = kSceneClient;
+  release.seq = 1;
+  release.action = ControlAction::release;
+  layer.obey({.control = release});
+  EXPECT_EQ(layer.held_by(kSceneClient), 1u);
 }
 
 }  // namespace

@@ -126,5 +126,23 @@ TEST(Clients, ToldOfAreNoMoreThanFitInAReport) {
   EXPECT_EQ(report(clients, 0).size(), kMaxClients);
 }
 
+TEST(Clients, NoWriterSpeaksForTheScene) {
+  Clients clients({});
+  EXPECT_FALSE(clients.admit(0, writer(1), 1, 0));
+  EXPECT_FALSE(clients.refuse(0, 0));
+  std::vector<std::uint64_t> left;
+  clients.lose(writer(1), 0, left);
+  EXPECT_TRUE(left.empty());
+}
+
+TEST(Clients, WhoFindsNoPlaceIsToldSoAtALowRate) {
+  Clients clients({.refusals_per_second = 200, .refusals_at_once = 10});
+  for (std::uint32_t n = 1; n <= Clients::kKnown; ++n) clients.admit(n, writer(n), 1, 0);
+  EXPECT_FALSE(clients.admit(5000, writer(5000), 1, 0));
+  int answered = 0;
+  for (std::uint64_t n = 0; n < 100; ++n) answered += clients.refuse(5000 + n, 0) ? 1 : 0;
+  EXPECT_EQ(answered, 10);
+}
+
 }  // namespace
 }  // namespace poinsot

@@ -138,5 +138,18 @@ TEST(CommandInbox, ManyThreadsPushAndOneTakes) {
   EXPECT_EQ(inbox.full(), refused);
 }
 
+TEST(CommandInbox, KnowsWhatWaitsToBeTaken) {
+  CommandInbox inbox;
+  WrenchCommand command;
+  command.client = 1;
+  command.seq = 7;
+  inbox.push(command);
+  EXPECT_TRUE(inbox.waits(1, 7));
+  EXPECT_FALSE(inbox.waits(1, 8));
+  CommandInbox::Batch batch;
+  inbox.take(batch);
+  EXPECT_FALSE(inbox.waits(1, 7));
+}
+
 }  // namespace
 }  // namespace poinsot

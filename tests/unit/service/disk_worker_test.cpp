@@ -32,5 +32,23 @@ TEST(DiskWorker, RefusesAtOnceWhatFindsNoRoom) {
   disk.set_value();
 }
 
+TEST(DiskWorker, WhatMustNotBeDroppedFindsRoomInAFullQueue) {
+  bool done = false;
+  {
+    DiskWorker worker;
+    std::promise<void> begun, disk;
+    worker.post([&] {
+      begun.set_value();
+      disk.get_future().wait();
+    });
+    begun.get_future().wait();
+    while (worker.has_room()) worker.post([] {});
+    EXPECT_TRUE(worker.post_always([&] { done = true; }));
+    disk.set_value();
+    worker.stop();
+  }
+  EXPECT_TRUE(done);
+}
+
 }  // namespace
 }  // namespace poinsot

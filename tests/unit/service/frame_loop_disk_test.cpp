@@ -64,6 +64,7 @@ TEST_F(FrameLoopDisk, ASaveSentAgainWhileTheDiskIsSlowIsAnsweredOnce) {
               ResultCode::ok);  // nobody waits for it
     inbox_.push(save(1, 1, "slow"));
   }
+  ask(control(2, 8, ControlAction::step));  // the last one has been taken: the disk is still slow
   disk.set_value();
   EXPECT_EQ(reply_to(1, 1).code, ResultCode::ok);
   ask(control(2, 9, ControlAction::pause));
@@ -170,6 +171,58 @@ TEST_F(FrameLoopDisk, APausedRunIsSavedOnceWhenItHasChanged) {
   std::this_thread::sleep_for(100ms);
   end();
   EXPECT_EQ(saves, 2);
+}
+
+TEST_F(FrameLoopDisk, ARecordNameThatIsNoNameDoesNotEndTheRun) {
+  start(on_disk({.paused = true, .record = "a/b"}));
+  EXPECT_EQ(ask(control(1, 1, ControlAction::step)).code, ResultCode::ok);
+  EXPECT_EQ(outbox_.newest_report().recording, "");
+  EXPECT_THROW(open_store({.record = "a/b"}, "test"), Error);
+}
+
+TEST_F(FrameLoopDisk, AutosavesDoNotPileUpOnASlowDisk) {
+  std::promise<void> disk;
+  std::atomic<int> saves = 0;
+  FrameLoopOptions options = on_disk({.scale = 0, .autosave_ns = 1'000'000});
+  options.store.autosave = [&, hangs = disk.get_future().share()](const Checkpoint&) {
+    hangs.wait();
+    ++saves;
+  };
+  start(std::move(options));
+  std::this_thread::sleep_for(100ms);
+  ask(control(1, 1, ControlAction::shutdown));  // none is begun from here on
+  disk.set_value();
+  end();
+  EXPECT_EQ(saves, 1);
+}
+
+TEST_F(FrameLoopDisk, ALogIsNeitherBegunNorEndedWhileTheDiskHasNoRoom) {
+  start(on_disk({.paused = true}));
+  ask(named(1, 1, ControlAction::record, "log"));
+  std::promise<void> begun, disk;
+  disk_->post([&] {
+    begun.set_value();
+    disk.get_future().wait();
+  });
+  begun.get_future().wait();
+  while (disk_->has_room()) disk_->post([] {});
+  EXPECT_EQ(ask(named(1, 2, ControlAction::record, "")).code, ResultCode::operation_failed);
+  EXPECT_EQ(outbox_.newest_report().recording, "log");
+  EXPECT_EQ(ask(control(1, 3, ControlAction::step)).code, ResultCode::ok);
+  disk.set_value();
+}
+
+TEST_F(FrameLoopDisk, ARestoreOfAnotherFrameRateIsPacedByIt) {
+  Scene slow = test::falling_box();
+  slow.presentation.frame_rate = 20;
+  store_.save(*PresentationLayer(slow).make_checkpoint("slow"));
+  start(on_disk({.paused = true}));
+  ASSERT_EQ(ask(named(1, 1, ControlAction::restore, "slow")).code, ResultCode::ok);
+  RunControl until = control(1, 2, ControlAction::run_until);
+  until.value = 0.3;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(ask(until).last_frame, 6u);
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, 240ms);  // the first frame is due at once
 }
 
 }  // namespace

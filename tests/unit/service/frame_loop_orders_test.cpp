@@ -275,5 +275,50 @@ TEST_F(FrameLoopOrders, TheReportTellsPaceAndClients) {
   EXPECT_EQ(report.clients[0].accepted, 1u);  // the report is made before the reply counts
 }
 
+TEST_F(FrameLoopOrders, AResetThatIsRefusedDoesNotEndTheStepUnderWay) {
+  start({.paused = true});
+  inbox_.push(control(1, 1, ControlAction::step, kMaxStepFrames));
+  RunControl reset = control(2, 1, ControlAction::reset);
+  reset.scope = 0x80;
+  EXPECT_EQ(ask(reset).code, ResultCode::invalid_value);
+  EXPECT_EQ(ask(control(2, 2, ControlAction::step)).code, ResultCode::incorrect_state);
+}
+
+TEST_F(FrameLoopOrders, WhatComesAfterTheReleaseOfALostClientIsHeld) {
+  ASSERT_TRUE(inbox_.push(push(1, 1)));
+  lose(1);
+  ASSERT_TRUE(inbox_.push(push(1, 2)));
+  start({.paused = true});
+  reply_to(1, 2);
+  ask(control(2, 1, ControlAction::pause));
+  EXPECT_EQ(outbox_.newest_report().held_wrenches, 1u);
+}
+
+TEST_F(FrameLoopOrders, ReportsGoOnWhileAnInputIsWaitedFor) {
+  start({});
+  ask(lock_step(1, 1, 60s));
+  std::this_thread::sleep_for(50ms);  // it waits by now
+  RunReport report;
+  outbox_.take(report);
+  const auto deadline = std::chrono::steady_clock::now() + 20s;
+  bool told = false;
+  while (!told && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(5ms);
+    told = outbox_.take(report);
+  }
+  EXPECT_TRUE(told);
+}
+
+TEST_F(FrameLoopOrders, WhatComesWhileTheRunEndsIsAnswered) {
+  start({.paused = true});
+  ask(control(1, 1, ControlAction::shutdown));
+  thread_.join();
+  inbox_.push(control(1, 2, ControlAction::step));
+  inbox_.push(push(1, 3));
+  loop_->refuse_rest();
+  EXPECT_EQ(reply_to(1, 2).code, ResultCode::operation_failed);
+  EXPECT_EQ(reply_to(1, 3).code, ResultCode::operation_failed);
+}
+
 }  // namespace
 }  // namespace poinsot

@@ -89,5 +89,10 @@ TEST_F(SupervisorTest, PassesTheEndOnAndReturnsWhatBecomesOfIt) {
   EXPECT_EQ(runs(), 1);
 }
 
+TEST_F(SupervisorTest, AUsageErrorAfterACrashIsAFailureLikeAnother) {
+  EXPECT_EQ(supervise({.first = script("kill -SEGV $$"), .again = script("exit 2")}, logger_), 1);
+  EXPECT_EQ(runs(), 5);
+}
+
 }  // namespace
 }  // namespace poinsot
