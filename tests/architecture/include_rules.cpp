@@ -59,7 +59,8 @@ std::string included(std::string_view line) {
 
 // A folder of its own, like "eigen/": of a library. sys/, linux/ and the like are the system's.
 bool is_system_header(std::string_view name) {
-  return name.find('/') == std::string_view::npos || fits("sys/* linux/* net/* netinet/* arpa/*", name);
+  return name.find('/') == std::string_view::npos ||
+         fits("sys/* linux/* net/* netinet/* arpa/*", name);
 }
 
 std::string check_own(const ModuleRule& rule, std::string_view name) {

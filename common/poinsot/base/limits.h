@@ -22,10 +22,10 @@ inline constexpr std::size_t kMaxSprings = 131072;      // of one scene
 inline constexpr std::size_t kMaxPairs = 131072;        // of one scene, with rules of their own
 inline constexpr std::size_t kMaxHeldWrenches = 65536;  // at once, of the scene and all clients
 
-inline constexpr std::size_t kMaxContacts = 65536;  // of one frame on the bus
-inline constexpr std::size_t kMaxListed = 4096;     // held wrenches on the bus
+inline constexpr std::size_t kMaxContacts = 65536;      // of one frame on the bus
+inline constexpr std::size_t kMaxListed = 4096;         // held wrenches on the bus
 inline constexpr std::size_t kMaxHeldPerClient = 4096;  // wrenches at once, of one client
-inline constexpr std::size_t kMaxClients = 64;      // told of in a report
+inline constexpr std::size_t kMaxClients = 64;          // told of in a report
 
 // The largest force [N] or torque [N·m] component and point coordinate [m] that is accepted.
 inline constexpr double kMaxWrench = 1e12;

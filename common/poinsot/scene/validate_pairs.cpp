@@ -62,7 +62,7 @@ class PairValidation {
   const Scene& scene_;
   BodyNames bodies_;
   bool bodies_went_ = false;  // in a run: their names may still be in pairs, should they come back
-  std::string path_;  // of the pair that is looked at
+  std::string path_;          // of the pair that is looked at
   std::map<std::pair<const BodyDef*, const BodyDef*>, std::pair<const PairDef*, std::string>>
       firsts_;
   std::vector<SceneFault> faults_;
