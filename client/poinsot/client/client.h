@@ -45,7 +45,7 @@ struct ClientOptions {
   // The poses that are received: all, those of a filter, which the daemon then chooses and thins
   // out, or none, for whom the daemon writes nothing.
   std::optional<PoseFilter> poses = PoseFilter{};
-  // False: UDP alone, for who comes, asks little and leaves; the daemon keeps 26 kB of shared
+  // False: UDP alone, for who comes, asks little and leaves; the daemon keeps 50 kB of shared
   // memory for each client that it wrote to through it, until it ends.
   bool shared_memory = true;
   // Once it is requested, all calls that wait throw Stopped, within a tenth of a second.

@@ -28,7 +28,7 @@ struct BusOptions {
   // another instead of greetings; empty: none.
   std::string discovery_server = {};
   // False: UDP alone, for who comes, asks little and leaves. Whoever wrote to a participant through
-  // shared memory keeps its receive queue, 26 kB and a file, until it ends itself.
+  // shared memory keeps its receive queue, 50 kB and a file, until it ends itself.
   bool shared_memory = true;
 };
 

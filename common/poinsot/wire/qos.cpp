@@ -45,9 +45,6 @@ constexpr std::uint32_t kPoseBytes = 112;      // of one body in a frame
 constexpr std::uint32_t kFramesInSegment = 6;  // fewer, and frames arrive by repair only
 constexpr std::uint32_t kMaxMessage = 65500;   // [bytes] one datagram; larger samples are fragments
 constexpr std::uint32_t kSocketBuffer = 4 * kMegabyte;
-// Messages that wait in a receive queue in shared memory: a frame of 100 000 bodies is 172. Whoever
-// wrote to a queue keeps it, 26 kB, to its own end.
-constexpr std::uint32_t kQueue = 256;
 constexpr int kLeaseMs = 3000;  // who is not heard of for so long is gone
 constexpr const char* kLoopback = "127.0.0.1";
 // Of the server with number 0, as `fastdds discovery -i 0` starts it.
@@ -164,7 +161,6 @@ void set_participant_qos(const BusOptions& options, dds::DomainParticipantQos& q
     auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
     shared_memory->segment_size(segment_size(options.bodies));
     shared_memory->max_message_size(kMaxMessage);
-    shared_memory->port_queue_capacity(kQueue);
     qos.transport().user_transports.push_back(shared_memory);
     add_queue(*shared_memory, wire.default_unicast_locator_list);
   }
