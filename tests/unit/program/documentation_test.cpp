@@ -11,6 +11,7 @@
 #include "poinsot/program/completion.h"
 #include "poinsot/program/man_page.h"
 #include "poinsot/program/options.h"
+#include "support/temp_path.h"
 
 namespace poinsot {
 namespace {
@@ -66,8 +67,7 @@ TEST_F(Documentation, AManualPageHasAllOfItAndNoStrayCommand) {
 
 // What bash offers for a line whose last word is being typed.
 std::string bash_offers(const std::string& script, const std::string& words) {
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("poinsot_completion_" + std::to_string(std::rand()) + ".bash");
+  const auto file = test::temp_path("completion.bash");
   std::ofstream(file) << script << "poinsot() { :; }\nCOMP_WORDS=(" << words
                       << ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_tool\n"
                          "printf '%s ' \"${COMPREPLY[@]}\"\n";
