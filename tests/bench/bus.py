@@ -16,6 +16,7 @@ bus is what is measured.
 """
 
 import argparse
+import atexit
 import json
 import os
 import pathlib
@@ -37,6 +38,7 @@ class Programs:
     def daemon(self, scene, *options):
         process = subprocess.Popen([self.daemon_path, "run", scene, "--json", *options], env=self.env,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        atexit.register(process.kill)  # also if a measurement fails
         self.client("status", "--json")
         return process
 
@@ -45,8 +47,8 @@ class Programs:
                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
 
     def client(self, *arguments):
-        done = subprocess.run([self.client_path, *arguments, "--timeout", "20s"], env=self.env, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120)
+        done = subprocess.run([self.client_path, *arguments, "--timeout", "120s"], env=self.env, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=200)
         if done.returncode != 0:
             raise SystemExit(f"poinsot {' '.join(arguments)}: {done.stderr}")
         return done.stdout
