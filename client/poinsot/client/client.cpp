@@ -172,7 +172,7 @@ struct Client::Impl {
 
   void take_scene() {
     BodyInfo body;
-    while (link->scene.take(body)) book.add(std::move(body));
+    while (link->scene->take(body)) book.add(std::move(body));
   }
 
   void take_reports() {
@@ -336,6 +336,11 @@ bool Client::next_contacts(ContactSnapshot& contacts, Duration timeout) {
 
 std::vector<BodyInfo> Client::scene(Duration timeout) {
   Link& link = impl_->opened();
+  if (!link.scene) {
+    impl_->take_reports();
+    impl_->book.join();
+    link.join_scene(impl_->participant, impl_->world);
+  }
   const auto complete = [this] {
     impl_->take_scene();
     impl_->take_reports();

@@ -14,8 +14,7 @@ namespace poinsot {
 // What every client has.
 struct Link {
   Link(Participant& participant, const std::string& world, const std::optional<PoseFilter>& filter)
-      : scene(participant, world),
-        report(participant, world),
+      : report(participant, world),
         reply(participant, world),
         wrench(participant, world),
         control(participant, world) {
@@ -23,21 +22,27 @@ struct Link {
       poses.emplace(participant, world, stream_suffix(*filter));
       poses_wait.attach(*poses);
     }
-    scene_wait.attach(scene);
-    scene_wait.attach(report);
     report_wait.attach(report);
     reply_wait.attach(reply);
   }
 
+  // From now on the scene is received: for who asks for it only, because the daemon sends it whole,
+  // body by body.
+  void join_scene(Participant& participant, const std::string& world) {
+    scene.emplace(participant, world);
+    scene_wait.attach(*scene);
+    scene_wait.attach(report);
+  }
+
   bool has_poses() const { return !poses || poses->writers() > 0; }
   bool has_the_rest() const {
-    return scene.writers() > 0 && report.writers() > 0 && reply.writers() > 0 &&
-           wrench.readers() > 0 && control.readers() > 0;
+    return report.writers() > 0 && reply.writers() > 0 && wrench.readers() > 0 &&
+           control.readers() > 0;
   }
   bool is_matched() const { return has_poses() && has_the_rest(); }
 
   std::optional<Subscriber<PoseSnapshot>> poses;
-  Subscriber<BodyInfo> scene;
+  std::optional<Subscriber<BodyInfo>> scene;
   Subscriber<RunReport> report;
   Subscriber<Reply> reply;
   Publisher<WrenchCommand> wrench;

@@ -5,6 +5,10 @@
 
 namespace poinsot {
 
+void SceneBook::join() {
+  for (auto& [session, sheet] : sheets_) sheet.first_report = sheet.reported;
+}
+
 void SceneBook::add(BodyInfo body) {
   if (body.removed) {
     const auto sheet = sheets_.find(body.session);

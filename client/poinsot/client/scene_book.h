@@ -20,6 +20,8 @@ namespace poinsot {
 
 class SceneBook {
  public:
+  // Bodies are received from now on: of what came and went before, reports alone tell.
+  void join();
   void add(BodyInfo body);
   void add(const RunReport& report);
   // The snapshot that a user has read: its bodies are to be known.

@@ -97,6 +97,17 @@ TEST(SceneBook, AnEqualNumberIsNotEnoughWhileTheLastBodyIsMissing) {
   EXPECT_TRUE(book.is_complete());
 }
 
+TEST(SceneBook, WhoJoinsLaterDoesNotWaitForWordOfEarlierRemovals) {
+  SceneBook book;
+  book.add(report(7, 3, 1));
+  book.add(report(7, 2, 4));  // one removed long ago
+  book.join();
+  book.add(body(7, 0));
+  EXPECT_FALSE(book.is_complete());
+  book.add(body(7, 1));
+  EXPECT_TRUE(book.is_complete());
+}
+
 TEST(SceneBook, WaitsForABodyThatWasSeenInAFrame) {
   SceneBook book;
   book.add(report(7, 1, 1, 10));
