@@ -117,7 +117,7 @@ def readers(run, directory, seconds):
             cpu = processor_seconds(daemon.pid) - cpu
             after = run.status()
             frames = after["frame"] - before["frame"]
-            publishing = after["times"]["publishing"]["cpu"] - before["times"]["publishing"]["cpu"]
+            publishing = after["cpu_s"]["publishing"] - before["cpu_s"]["publishing"]
             for process in crowd:
                 process.kill()
             end(daemon)
